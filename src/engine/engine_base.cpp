@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -164,6 +165,7 @@ template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_
     const std::int64_t stop = std::min(last_step, step_after_sync) * micro_steps_;
     if (time_ != 0) windows_pass_stops_ = !is_redistributed_;
     is_redistributed_ = false;
+    stop_interval_ = std::gcd(stop_interval_, stop - n_micro_done_);
     while (n_micro_done_ < stop) {
         const std::int64_t next_sync = last_sync() + sync_every_;
         if (n_micro_done_ == last_sync() && sync_action_.begins()) let_effects_begin();
@@ -195,6 +197,7 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
     if (source) take_speed(largest_speed);
     redistributed_time_ -= time_;
     time_ = 0;
+    stop_interval_ = 0;
     ++n_syncs_;
     if (tuning_.rebalance_every == 0 || n_syncs_ % tuning_.rebalance_every != 0) return;
     const PhaseClock::Scope wait(phases_, Phase::wait);

@@ -86,8 +86,8 @@ protected:
     /// inspected at each step would otherwise have a window for each, which costs as much as a long
     /// one.
     std::int64_t horizon_of(std::int64_t target) const;
-    /// Whether `horizon_of` may be after the stop.
-    bool windows_pass_stops() const { return windows_pass_stops_; }
+    /// Micro-steps of which the next stops are probably multiples, counted from this one.
+    std::int64_t stop_interval() const { return stop_interval_; }
     /// What cells cover: the whole region that the rank uses, or only the part of it where its
     /// discs are. If discs are clustered, cells of the whole region would hold hundreds of discs
     /// each.
@@ -164,6 +164,8 @@ private:
     /// redistribution, which would have made a window useless.
     bool windows_pass_stops_ = false;
     bool is_redistributed_ = true; ///< whether discs were redistributed since the last stop
+    /// The largest divisor of all distances between stops since the last sync; 0 at first
+    std::int64_t stop_interval_ = 0;
 };
 
 #define CARROM_DECLARE(Dynamics) extern template class EngineBase<Dynamics>;

@@ -55,18 +55,16 @@ void BlockRun<Dynamics>::run_whole(const BlockGround& ground, const CellBlock& b
 template <class Dynamics>
 void BlockRun<Dynamics>::run_gathered(std::span<std::uint64_t> histories) {
     scratch_->predict_all();
-    run_events();
+    for (const double stop : scratch_->ground.stops) {
+        run_events(stop);
+        scratch_->report_hits();
+    }
+    run_events(scratch_->ground.window.end);
     scratch_->report(histories);
 }
 
-template <class Dynamics>
-void BlockRun<Dynamics>::go_on(const BlockGround& ground, BlockOutcome& outcome) {
-    scratch_->begin(ground, outcome);
-    run_events();
-    scratch_->report({});
-}
-
-template <class Dynamics> void BlockRun<Dynamics>::run_events() {
+/// Carries out the events that are left up to a time.
+template <class Dynamics> void BlockRun<Dynamics>::run_events(double end) {
     Scratch& s = *scratch_;
     const EventOrder before(s.discs);
     const auto is_current = [&s](const Event& event) {
@@ -74,10 +72,9 @@ template <class Dynamics> void BlockRun<Dynamics>::run_events() {
     };
     // After a request to stop the loop ends early. This run has no valid result, and the engine
     // gives up the step.
-    for (Event event; s.queue.pop(event, s.ground.stop, before, is_current) &&
-                      !s.outcome->is_cascade && !is_stop_overdue();)
+    for (Event event; s.queue.pop(event, end, before, is_current) && !s.outcome->is_cascade &&
+                      !is_stop_overdue();)
         s.happen(event);
-    s.stress_terms.add_to(s.outcome->stress);
 }
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::find_runs(const FlightBox& box) {
@@ -286,12 +283,11 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
         note(event.q, event.p, event);
     }
     if (is_wall(event.q) && is_own[event.p] != 0)
-        before.add_to(stress_terms, outcome->stress, dynamics, p, event.time,
-                      ground.sums.flown_before);
+        before.add_to(stress_terms, part.stress, dynamics, p, event.time, ground.sums.flown_before);
     note(event.p, event.q, event);
     if (is_own[event.p] != 0) {
         outcome->n_events += 1;
-        outcome->losses.add(loss, dynamics.slowing_at(event.time));
+        part.losses.add(loss, dynamics.slowing_at(event.time));
         const bool is_pushed = !Dynamics::may_lose_discs || !p.has_departed();
         if (ground.notes.log)
             log_event(event, is_pushed ? p.vx - vx_before : 0, is_pushed ? p.vy - vy_before : 0);
@@ -311,13 +307,12 @@ template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event&
                                        Dynamics::since_collision_of(p, q, event.time),
                                        {spin_of(event.p), spin_of(event.q)});
     if (is_own[event.p] != 0) {
-        outcome->n_simultaneous += is_simultaneous;
+        part.n_simultaneous += is_simultaneous;
         const Separation to = dynamics.separation(p, q);
-        [[maybe_unused]] const double impulse = stress.add_to(stress_terms, outcome->stress,
-                                                              dynamics, p, q, to, event.time,
-                                                              ground.sums.flown_before);
+        [[maybe_unused]] const double impulse = stress.add_to(
+            stress_terms, part.stress, dynamics, p, q, to, event.time, ground.sums.flown_before);
         if constexpr (Dynamics::has_moving_images)
-            outcome->work += impulse * periods().between(p, q, event.time).vx;
+            part.work += impulse * periods().between(p, q, event.time).vx;
         if (ground.notes.pairs) record_pair(event, stress, to);
     }
     if (Dynamics::is_periodic && event.has_image()) move_image(q, -event.image());
@@ -343,14 +338,12 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
     past_events.partner = partner;
     const std::uint64_t partner_id = is_wall(partner) ? ~std::uint64_t{0} : discs[partner].id;
     const double now = dynamics.squared_speed(disc);
-    if (ground.is_alone) {
-        if (past_events.history != EventHistory::unreported) hit_slots.push_back(slot);
-        past_events.history = EventHistory::unreported;
-    } else {
-        n_hit += past_events.history == 0 && is_own[slot] != 0;
+    if (ground.is_alone)
+        past_events.history = 1;
+    else
         past_events.add(event.time, disc, partner_id, spin_of(slot), speed_class(now));
-    }
     if (is_own[slot] != 0) {
+        if (!std::exchange(is_hit[slot], true)) hit_slots.push_back(slot);
         largest_squared = std::max(largest_squared, now);
         const float before = lane_speed_squared(slot);
         if (now > bound_squared || before > bound_lane_squared) [[unlikely]]
@@ -364,14 +357,14 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
 /// A window is exact if no disc is ever further from its initial place than the speed bound allows
 /// at that time. So a disc may exceed the bound for a while without harm if it was slower before.
 /// The run is void if the disc might get too far before the window ends, or if it collides again
-/// while it is too far away. After a stop, distances and times count from the stop.
+/// while it is too far away.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
     const DiscState &disc = discs[slot], &at_start = ground.discs[indices[slot]];
     const BlockWindow& window = ground.window;
-    const double elapsed = time - ground.since, duration = window.end - ground.since;
-    double dx = disc.x - at_start.x_at(ground.since);
-    const double dy = disc.y - at_start.y_at(ground.since);
+    const double elapsed = time - window.begin;
+    double dx = disc.x - at_start.x_at(window.begin);
+    const double dy = disc.y - at_start.y_at(window.begin);
     if constexpr (Dynamics::has_moving_images) // the fastest image next to the disc counts
         dx = std::fabs(dx + (periods().vx_of(disc) - disc.vx) * elapsed) +
              std::fabs(periods().speed) * elapsed;
@@ -382,7 +375,7 @@ void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double ti
     // A disc that is hardly too fast might not be tested at its next collision, so it is an error.
     const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5);
     if (will_be_seen && speed < 2 * window.speed_bound &&
-        away + speed * (window.end - time) <= window.speed_bound * duration)
+        away + speed * (window.end - time) <= window.speed_bound * window.duration())
         return;
     too_fast = std::max({too_fast, speed, window.speed_bound * (1 + 1e-6)});
 }

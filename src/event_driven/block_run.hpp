@@ -36,6 +36,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cell_list/cell_grid.hpp"
@@ -84,6 +85,8 @@ struct BlockNotes {
     bool pairs = false;         ///< collisions of pairs go to BlockOutcome::pairs
     std::int64_t last_sync = 0; ///< micro-step of the last sync, for BlockOutcome::pairs
     double velocity_unit = 1;   ///< unit of the velocities in BlockOutcome::pairs
+
+    friend bool operator==(const BlockNotes&, const BlockNotes&) = default;
 };
 
 /// The data that all blocks of a rank share.
@@ -94,9 +97,7 @@ struct BlockGround {
     const CellGrid* grid = nullptr;       ///< holds the discs at the window's start
     CellBlock own_cells; ///< an own disc that rounding puts outside counts in the nearest cell
     BlockWindow window;
-    /// A run goes up to `stop`, which is the window's end unless BlockRun::go_on follows. All
-    /// `discs` are right at `since`, which is the window's begin unless this is a call of `go_on`.
-    double since = 0, stop = 1;
+    std::span<const double> stops{}; ///< times inside the window at which parts of it end
     /// Whether there is a single run of the whole box. Then histories are not compared, and no grid
     /// is built.
     bool is_alone = false;
@@ -173,20 +174,28 @@ private:
 };
 static_assert(sizeof(NewState) == 48);
 
+/// The events of own discs from one stop to the next, or to the window's end.
+struct BlockPart {
+    /// Numbers of entries in the lists of BlockOutcome up to the end of this part.
+    std::size_t n_hit = 0, n_logged = 0, n_pairs = 0;
+    std::uint64_t n_simultaneous = 0; ///< see RollbackCounts
+    StressSums stress{1};             ///< sums over the events
+    LossSums losses{1};               ///< sums over the events
+    double work = 0;                  ///< work of moving images in the events
+};
+
+/// The results of a run. Lists begin with the entries of the first part.
 struct BlockOutcome {
-    std::vector<LocalIndex> hit; ///< own discs that have collided
-    RawVector<NewState> states;  ///< the new states of the discs in `hit`, in the same order
-    SideColumns columns;         ///< their new values in the side columns
+    std::vector<BlockPart> parts; ///< one for each stop, and the last one
+    std::vector<LocalIndex> hit;  ///< own discs that have collided, once for each part
+    RawVector<NewState> states;   ///< the new states of the discs in `hit`, in the same order
+    SideColumns columns;          ///< their new values in the side columns
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     NotedEvents<PairEvent> pairs;
-    std::uint64_t n_events = 0;       ///< number of events whose first disc is an own disc
-    std::uint64_t n_simultaneous = 0; ///< see RollbackCounts
+    std::uint64_t n_events = 0;  ///< number of events whose first disc is an own disc
     std::uint64_t n_carried = 0; ///< number of all events of the run, those of the halo included
     std::uint64_t n_seen = 0;    ///< number of discs of the run, with its halo
-    StressSums stress{1};        ///< sums over the events of own discs
-    LossSums losses{1};          ///< sums over the events of own discs
-    double work = 0;             ///< work of moving images in the events of own discs
     double too_fast = 0;         ///< the largest speed of an own disc that moved too far, or 0
     /// The largest speed of a disc from beyond the ring that collided with an own disc, or 0
     double far_partner = 0;
@@ -195,6 +204,14 @@ struct BlockOutcome {
     bool is_cascade = false;  ///< the run was given up in a collision cascade
     DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if the disc meets a wall
     double cascade_time = 0;
+
+    /// The entries of a list that belong to the parts from `first` to before `end`, if `number` is
+    /// the list's member of BlockPart.
+    std::pair<std::size_t, std::size_t> entries(std::size_t BlockPart::* number, std::size_t first,
+                                                std::size_t end) const {
+        const auto up_to = [&](std::size_t part) { return part > 0 ? parts[part - 1].*number : 0; };
+        return {up_to(first), up_to(end)};
+    }
 };
 
 /// Scratch space of one thread; it keeps its memory from block to block.
@@ -215,11 +232,6 @@ public:
     void run_whole(const BlockGround& ground, const CellBlock& block,
                    std::span<std::uint64_t> histories, BlockOutcome& outcome);
 
-    /// Goes on from where the last run of the whole box has stopped, with the cells and predictions
-    /// of its window. Only for a run that is alone, whose discs have got its new states and no
-    /// others.
-    void go_on(const BlockGround& ground, BlockOutcome& outcome);
-
     /// Uses these dynamics from now on. After a sync they differ, because walls have moved.
     void change_dynamics(const Dynamics& dynamics);
 
@@ -229,7 +241,7 @@ private:
     struct Scratch;
 
     void run_gathered(std::span<std::uint64_t> histories);
-    void run_events();
+    void run_events(double end);
 
     std::unique_ptr<Scratch> scratch_;
 };

@@ -19,11 +19,8 @@ namespace carrom {
 /// The events of a disc in this window.
 struct EventHistory {
     static constexpr std::uint32_t nobody = 0xfffffffd;
-    /// Values of `history` in a run of the whole box: the disc has collided since the last report,
-    /// or only before it.
-    static constexpr std::uint64_t unreported = 1, reported = 2;
 
-    /// See HaloRecord.
+    /// See HaloRecord. In a run that is alone it is 1 after an event.
     std::uint64_t history = 0;
     std::uint32_t generation = 0;   ///< generation of the last collision
     std::uint32_t partner = nobody; ///< partner in the last collision
@@ -182,8 +179,12 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void push(double time, std::uint32_t a, std::uint32_t b, const Image* image = nullptr);
     void report(std::span<std::uint64_t> histories);
     void report_hits();
+    void report_hit(std::uint32_t slot, std::size_t place);
     void report_disc(std::uint32_t slot, std::span<std::uint64_t> histories, std::size_t& next,
                      double& end_squared);
+    std::size_t make_room_for_hits();
+    void begin_part();
+    void end_part();
 
     // These are for discs of several sizes (block_levels.cpp).
     void list_levels(const CellBlock& own, int halo);
@@ -352,8 +353,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     SideColumns columns = side_columns_of(dynamics);
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;
-    std::size_t n_hit = 0;                ///< own discs that have collided
-    std::vector<std::uint32_t> hit_slots; ///< of a run that is alone, since its last report
+    std::vector<std::uint8_t> is_hit;     ///< whether an own disc has collided in this part
+    std::vector<std::uint32_t> hit_slots; ///< slots of these discs
     BoxLayout layout;                     ///< only for a run of the whole box
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
@@ -367,7 +368,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         later_ends;
     CascadeWatch cascade_watch;
     BlockOutcome* outcome = nullptr;
-    StressTerms stress_terms;       ///< terms that have not been added to the outcome's sums yet
+    BlockPart part;                 ///< the present part
+    StressTerms stress_terms;       ///< terms that have not been added to the part's sums yet
     double bound_squared = 0;       ///< square of the speed bound
     float bound_lane_squared = 0;   ///< the square of a slightly smaller bound, in cells per window
     double too_fast = 0;            ///< see BlockOutcome

@@ -15,17 +15,22 @@ template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::begin(const BlockGround& of_rank, BlockOutcome& of_run) {
     ground = of_rank;
     outcome = &of_run;
+    outcome->parts.clear();
     outcome->hit.clear();
     outcome->states.clear();
+    outcome->columns = side_columns_of(dynamics);
     outcome->ring.clear();
     outcome->log.clear();
     outcome->pairs.clear();
-    outcome->n_events = outcome->n_carried = outcome->n_seen = outcome->n_simultaneous = 0;
-    outcome->work = 0;
-    outcome->stress = ground.sums.no_stress;
-    outcome->losses = ground.sums.no_losses;
+    outcome->n_events = outcome->n_carried = outcome->n_seen = 0;
     outcome->is_cascade = false;
     outcome->far_partner = 0;
+    begin_part();
+}
+
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::begin_part() {
+    part = {.stress = ground.sums.no_stress, .losses = ground.sums.no_losses};
+    hit_slots.clear();
 }
 
 /// Copies the listed discs into the block's slots, cell by cell.
@@ -36,6 +41,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
     if (!has_sizes)
         runs.resize(static_cast<std::size_t>(cells.end_column - cells.first_column) + 1);
     past_events_of.assign(n, EventHistory{});
+    is_hit.assign(n, 0);
     if (ground.columns) columns.gather(*ground.columns, indices);
     for (std::vector<float>* lane : {&x, &y, &vx, &vy}) {
         if (lane->size() < n + filter_padding) lane->resize(2 * n + filter_padding);
@@ -63,8 +69,6 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
     const double bound_lane = ground.window.speed_bound * cells_per_speed * (1 - 1e-6);
     bound_lane_squared = static_cast<float>(bound_lane * bound_lane);
     too_fast = 0;
-    n_hit = 0;
-    hit_slots.clear();
     cascade_watch = {};
 }
 
@@ -211,48 +215,57 @@ template <class Dynamics>
     }
     histories[indices[slot]] = history;
     end_squared = std::max(end_squared, dynamics.squared_speed_at(discs[slot], ground.window.end));
-    if (history == 0) return;
-    outcome->hit[next] = indices[slot];
-    outcome->states[next] = NewState(discs[slot]);
-    outcome->columns.copy(next, columns, slot);
-    ++next;
+    if (is_hit[slot] != 0) report_hit(slot, next++);
 }
 
-/// Writes the states of discs that have collided since the last report, of a run that is alone.
+/// Writes the present state of a disc to place `place` of the outcome's lists.
+template <class Dynamics>
+[[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::report_hit(std::uint32_t slot,
+                                                                           std::size_t place) {
+    outcome->hit[place] = indices[slot];
+    outcome->states[place] = NewState(discs[slot]);
+    outcome->columns.copy(place, columns, slot);
+}
+
+/// Makes room in the outcome's lists for the discs that have collided in this part. Returns the
+/// first new place. Lists of the exact size save memory, because all blocks keep their outcomes
+/// until the window is validated.
+template <class Dynamics> std::size_t BlockRun<Dynamics>::Scratch::make_room_for_hits() {
+    const std::size_t n_before = outcome->hit.size(), n = n_before + hit_slots.size();
+    outcome->hit.resize(n);
+    outcome->states.resize(n);
+    outcome->columns.resize(n);
+    return n_before;
+}
+
+/// Ends a part at a stop: writes the states of the discs that have collided in it.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::report_hits() {
-    for (std::size_t k = 0; k < n_hit; ++k) {
-        const std::uint32_t slot = hit_slots[k];
-        outcome->hit[k] = indices[slot];
-        outcome->states[k] = NewState(discs[slot]);
-        outcome->columns.copy(k, columns, slot);
-        past_events_of[slot].history = EventHistory::reported;
+    std::size_t next = make_room_for_hits();
+    for (const std::uint32_t slot : hit_slots) {
+        report_hit(slot, next++);
+        is_hit[slot] = 0;
     }
-    hit_slots.clear();
+    end_part();
 }
 
-/// Writes the new states of the block's own discs and the histories of the ring to the outcome. The
-/// largest speed at the window's end is not known before.
+template <class Dynamics> void BlockRun<Dynamics>::Scratch::end_part() {
+    stress_terms.add_to(part.stress);
+    part.n_hit = outcome->hit.size();
+    part.n_logged = outcome->log.size();
+    part.n_pairs = outcome->pairs.all().size();
+    outcome->parts.push_back(part);
+    begin_part();
+}
+
+/// Writes the new states of the block's own discs and the histories of the ring to the outcome. Own
+/// discs are written in the order of cells, in which the rank's discs lie.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->too_fast = too_fast;
     outcome->largest_speed = std::sqrt(largest_squared) * (1 + 0x1p-50);
-    if (ground.is_alone) n_hit = hit_slots.size();
-    // Lists of the exact size save memory, because all blocks keep their outcomes until the window
-    // is validated.
-    outcome->hit.resize(n_hit);
-    outcome->states.resize(n_hit);
-    outcome->columns = side_columns_of(dynamics);
-    outcome->columns.resize(n_hit);
-    if (ground.is_alone) report_hits();
-    if (ground.stop < ground.window.end) return;
     double end_squared = 0;
-    std::size_t next = ground.is_alone ? n_hit : 0;
-    if (ground.is_alone) {
-        for (std::uint32_t slot = 0; slot < indices.size(); ++slot)
-            if (is_own[slot] != 0)
-                end_squared = std::max(end_squared,
-                                       dynamics.squared_speed_at(discs[slot], ground.window.end));
-    } else if constexpr (has_sizes) {
+    std::size_t next = make_room_for_hits();
+    if constexpr (has_sizes) {
         for (std::uint32_t slot = 0; slot < indices.size(); ++slot)
             if (is_own[slot] != 0 || (!is_whole && is_of_ring[slot] != 0))
                 report_disc(slot, histories, next, end_squared);
@@ -263,7 +276,8 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
                 report_disc(slot, histories, next, end_squared);
         }
     }
-    ensure(next == n_hit, "a block's own discs lie in its own cells or next to them");
+    ensure(next == outcome->hit.size(), "a block's own discs lie in its own cells or next to them");
+    end_part();
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
 }
 
@@ -274,6 +288,7 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     template void BlockRun<Dynamics>::Scratch::gather();                                           \
     template void BlockRun<Dynamics>::Scratch::mark_own(const CellBlock&);                         \
     template void BlockRun<Dynamics>::Scratch::mark_own_of_all(const CellBlock&);                  \
+    template void BlockRun<Dynamics>::Scratch::report_hits();                                      \
     template void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t>);
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE

@@ -19,6 +19,9 @@ namespace carrom {
 
 namespace {
 
+/// Fewer discs cost more in threads than they save.
+constexpr std::size_t least_hits_for_threads = 4096;
+
 /// **Collective.**
 WindowSetting window_setting(const Tuning& tuning, const BlockTuning& blocks,
                              const Communicator& communicator) {
@@ -61,68 +64,78 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::advance_to(std::int64_t target) {
-    const auto time_of = [this](std::int64_t micro_step) {
-        return dynamics_.clock_at(static_cast<double>(micro_step - this->last_sync()));
-    };
-    const double target_time = time_of(target), horizon = time_of(this->horizon_of(target));
-    while (time_ < target_time) {
-        const double stop = std::min(target_time, jam_watch_.bin_end());
-        run_window(stop, jam_watch_.is_on() ? stop : horizon);
+    while (time_ < time_of(target)) {
+        if (this->is_in_window_ && notes() != notes_) leave_window();
+        if (!this->is_in_window_) run_window(target);
+        commit_until(time_of(target));
     }
     n_micro_done_ = target;
 }
 
-/// Runs a window to its end or to `target`. It ends at `horizon` or before. Only a run of the whole
-/// box can go on after a stop, because its discs, cells and predictions are those of one block.
-template <class Dynamics>
-void EventDrivenEngine<Dynamics>::run_window(double target, double horizon) {
-    if (!std::exchange(this->is_in_window_, false)) {
-        is_alone_ = can_run_alone(target - time_);
-        begin_window(is_alone_ ? horizon : target);
-    }
-    if (!run_until(target)) return;
-    if (reduced_.counts.ranks_jammed > 0 || jam_watch_.add(reduced_.counts.events)) refuse_jam();
-    commit();
-    travel_speed_ = window_.speed_bound;
-    n_events_in_window_ += reduced_.counts.events;
-    time_ = std::min(target, window_.end);
-    this->is_in_window_ = time_ < window_.end;
-    if (!this->is_in_window_) end_window();
-}
-
-template <class Dynamics> void EventDrivenEngine<Dynamics>::begin_window(double horizon) {
+/// Finds all events of the next window. If windows pass stops, it may end after `target`. Then a
+/// part of it ends at `target`, and others where the next stops are expected. No state changes
+/// before `commit_until`, so that threads and ranks have a whole window to work on, and need not
+/// wait for each other at stops.
+template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(std::int64_t target) {
     this->set_departed_aside();
     migrate();
     record_first_speed();
-    window_ = choose(horizon);
-    n_events_in_window_ = 0;
+    is_alone_ = can_run_alone();
+    window_ = choose(horizon(target));
+    list_stops(target);
+    notes_ = notes();
     common_depth_ = first_halo_depth();
     redistribute();
+    run_until_exact();
+    if (reduced_.counts.ranks_jammed > 0 || jam_watch_.add(reduced_.counts.events)) refuse_jam();
+    travel_speed_ = window_.speed_bound;
+    n_parts_done_ = 0;
+    this->is_in_window_ = true;
 }
 
-/// Runs all blocks until the result is right up to `target` or the window's end. Returns false if
-/// the window has ended where it had stopped before, because discs are too fast for the rest of it.
-template <class Dynamics> bool EventDrivenEngine<Dynamics>::run_until(double target) {
-    const bool goes_on = time_ > window_.begin;
+template <class Dynamics> void EventDrivenEngine<Dynamics>::run_until_exact() {
     for (bool is_first = true;; is_first = false) {
-        run_blocks(std::min(target, window_.end));
+        run_blocks();
         const Verdict verdict = validate();
-        if (verdict == Verdict::exact) return true;
+        if (verdict == Verdict::exact) return;
         counts_.windows_redone += is_first;
-        if (goes_on) {
-            leave_window();
-            return false;
-        }
         if (verdict == Verdict::too_fast) shorten();
-        if (verdict == Verdict::too_fast || widen_marked()) redistribute();
+        if (verdict == Verdict::fails_later) end_at_first_stop();
+        if (verdict != Verdict::repeat || widen_marked()) redistribute();
         if (verdict == Verdict::repeat) record_rollback();
     }
 }
 
+/// Gives discs their states at `target`, or at the window's end if that comes first. If no part of
+/// the window ends at `target`, the window ends at the part's end before it.
+template <class Dynamics> void EventDrivenEngine<Dynamics>::commit_until(double target) {
+    const std::size_t first = n_parts_done_;
+    const auto later = std::ranges::upper_bound(stops_, target);
+    n_parts_done_ = static_cast<std::size_t>(later - stops_.begin());
+    if (n_parts_done_ > 0) time_ = stops_[n_parts_done_ - 1];
+    const bool is_end = window_.end <= target;
+    if (is_end) {
+        ++n_parts_done_;
+        time_ = window_.end;
+    }
+    if (n_parts_done_ > first) commit(first);
+    if (is_end)
+        end_window();
+    else if (time_ < target)
+        leave_window();
+}
+
 template <class Dynamics> void EventDrivenEngine<Dynamics>::end_window() {
-    policy_.record_end(time_ - window_.begin);
+    this->is_in_window_ = false;
+    policy_.record_end(window_.duration());
     ++n_windows_;
     ++counts_.windows;
+    largest_speed_ = 0;
+    for (Block& block : blocks_) {
+        largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
+        block.has_run = false;
+    }
+    is_largest_known_ = true;
     if (time_ == jam_watch_.bin_end() && jam_watch_.finish_bin()) refuse_jam();
 }
 
@@ -172,15 +185,22 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
     make_blocks();
 }
 
-template <class Dynamics> BlockGround EventDrivenEngine<Dynamics>::ground_of_blocks(double stop) {
+template <class Dynamics> BlockNotes EventDrivenEngine<Dynamics>::notes() const {
+    return {.log = this->log_ != nullptr || this->wall_followers_.are_any(),
+            .pairs_in_log = this->log_ != nullptr,
+            .pairs = this->pair_followers_.are_any(),
+            .last_sync = this->last_sync(),
+            .velocity_unit = static_cast<double>(this->micro_steps_)};
+}
+
+template <class Dynamics> BlockGround EventDrivenEngine<Dynamics>::ground_of_blocks() {
     return {.discs = discs_.all(),
             .n_own = discs_.n_own(),
             .columns = &discs_.columns(),
             .grid = &discs_.grid(),
             .own_cells = own_cells_,
             .window = window_,
-            .since = time_,
-            .stop = stop,
+            .stops = stops_,
             .is_alone = is_alone_,
             .box_cells = box_cells_,
             .extent = extent(),
@@ -188,17 +208,12 @@ template <class Dynamics> BlockGround EventDrivenEngine<Dynamics>::ground_of_blo
             .sums = {.no_stress = this->no_stress_,
                      .no_losses = this->no_losses_,
                      .flown_before = this->flown_before_},
-            .notes = {.log = this->log_ != nullptr || this->wall_followers_.are_any(),
-                      .pairs_in_log = this->log_ != nullptr,
-                      .pairs = this->pair_followers_.are_any(),
-                      .last_sync = this->last_sync(),
-                      .velocity_unit = static_cast<double>(this->micro_steps_)}};
+            .notes = notes_};
 }
 
-template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks(double stop) {
+template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     const PhaseClock::Scope scope(phases_, Phase::search);
-    const BlockGround ground = ground_of_blocks(stop);
-    if (time_ > window_.begin) return block_runs_.front().go_on(ground, blocks_.front().outcome);
+    const BlockGround ground = ground_of_blocks();
     std::vector<std::size_t> marked;
     for (std::size_t k = 0; k < blocks_.size(); ++k)
         if (blocks_[k].is_marked != 0) marked.push_back(k);
@@ -215,10 +230,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks(double st
 #pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
     for (std::size_t i = 0; i < marked.size(); ++i) {
         Block& block = blocks_[marked[i]];
-        // A run of the whole box may continue later on any thread, so it always uses the same
-        // scratch space.
-        const int number = is_alone_ ? 0 : omp_get_thread_num();
-        BlockRun<Dynamics>& block_run = block_runs_[static_cast<std::size_t>(number)];
+        auto& block_run = block_runs_[static_cast<std::size_t>(omp_get_thread_num())];
         block.saw_all = sees_all(block);
         if (is_alone_ || (Dynamics::is_periodic && block.saw_all))
             block_run.run_whole(ground, block.cells, histories_, block.outcome);
@@ -245,29 +257,38 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::add_to(Totals& total
     add_losses(this->losses_, this->micro_steps_, communicator_, totals);
 }
 
-template <class Dynamics> void EventDrivenEngine<Dynamics>::commit() {
+/// Carries out the window's parts from `first` to before `n_parts_done_`.
+template <class Dynamics> void EventDrivenEngine<Dynamics>::commit(std::size_t first) {
     const PhaseClock::Scope scope(phases_, Phase::move);
     DiscState* const discs = discs_.all().data();
+    const auto entries = [&](const Block& block) {
+        return block.outcome.entries(&BlockPart::n_hit, first, n_parts_done_);
+    };
+    std::size_t n_hit = 0;
+    for (const Block& block : blocks_) n_hit += entries(block).second - entries(block).first;
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
-#pragma omp parallel for num_threads(tuning_.threads) schedule(dynamic, 1)
+#pragma omp parallel for num_threads(tuning_.threads)                                              \
+    schedule(dynamic, 1) if (n_hit >= least_hits_for_threads)
     for (std::int64_t k = 0; k < n_blocks; ++k) {
-        const BlockOutcome& outcome = blocks_[static_cast<std::size_t>(k)].outcome;
-        for (std::size_t i = 0; i < outcome.hit.size(); ++i)
+        const Block& block = blocks_[static_cast<std::size_t>(k)];
+        const BlockOutcome& outcome = block.outcome;
+        const auto [begin, end] = entries(block);
+        for (std::size_t i = begin; i < end; ++i)
             outcome.states[i].overwrite(discs[outcome.hit[i]]);
-        for (std::size_t i = 0; i < outcome.hit.size(); ++i)
+        for (std::size_t i = begin; i < end; ++i)
             discs_.columns().copy(outcome.hit[i], outcome.columns, i);
     }
-    largest_speed_ = 0;
     for (const Block& block : blocks_) {
-        largest_speed_ = std::max(largest_speed_, block.outcome.largest_speed_at_end);
-        counts_.simultaneous += block.outcome.n_simultaneous;
-        if (this->stress_) *this->stress_ += block.outcome.stress;
-        this->losses_ += block.outcome.losses;
-        if (this->is_followed()) log_events(block.outcome);
-        if (Dynamics::has_moving_images && this->work_) *this->work_ += block.outcome.work;
+        for (std::size_t k = first; k < n_parts_done_; ++k) add(block.outcome.parts[k]);
+        if (this->is_followed()) log_events(block.outcome, first, n_parts_done_);
     }
-    for (Block& block : blocks_) block.has_run = false;
-    is_largest_known_ = true;
+}
+
+template <class Dynamics> void EventDrivenEngine<Dynamics>::add(const BlockPart& part) {
+    counts_.simultaneous += part.n_simultaneous;
+    if (this->stress_) *this->stress_ += part.stress;
+    this->losses_ += part.losses;
+    if (Dynamics::has_moving_images && this->work_) *this->work_ += part.work;
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double largest_speed) {
@@ -286,11 +307,10 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::take_speed(double la
     is_largest_known_ = false;
 }
 
-/// The window ends at the present stop. Its block run does not know the largest speed there.
+/// The window ends at the present stop. Its validation has not found the largest speed there.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::leave_window() {
-    this->is_in_window_ = false;
-    take_speed(std::sqrt(this->squared_speed_of_own(time_)));
     end_window();
+    take_speed(std::sqrt(this->squared_speed_of_own(time_)));
 }
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::drop_scratch() {

@@ -9,7 +9,8 @@
 //                 are compared with those that their owners found; own discs may have met no disc
 //                 from beyond the ring, and none may have got too far; otherwise the blocks that
 //                 differ run again with twice the halo, in the end with the whole box (rollback)
-//   commit        the discs that were hit get their new states
+//   commit        the discs that were hit get their new states; at each stop inside the window,
+//                 those that were hit before it
 //
 // A rollback costs only the repeated run, because no state changes before the commit. A single run
 // of the whole box, without halo and histories, serves few discs on one rank and thread.
@@ -93,7 +94,8 @@ private:
         bool saw_all = false;       ///< whether the block's last run covered the whole box
         BlockOutcome outcome;
     };
-    enum class Verdict { exact, repeat, too_fast };
+    /// `fails_later`: a window that passes stops ends in an error, perhaps after the first stop.
+    enum class Verdict { exact, repeat, too_fast, fails_later };
     /// Results of the validation of a window, summed over all ranks.
     struct FoundInWindow {
         std::uint64_t ranks_too_fast = 0; ///< ranks with a disc that was faster than the bound
@@ -112,14 +114,20 @@ private:
     void drop_scratch() override;
     void leave_window() override;
 
-    void run_window(double target, double horizon);
-    void begin_window(double horizon);
-    bool run_until(double target);
+    void run_window(std::int64_t target);
+    void run_until_exact();
+    void commit_until(double target);
     void end_window();
+    double time_of(std::int64_t micro_step) const {
+        return dynamics_.clock_at(static_cast<double>(micro_step - this->last_sync()));
+    }
+    double horizon(std::int64_t target) const;
+    void list_stops(std::int64_t target);
+    void end_at_first_stop();
     BlockWindow choose(double target);
     BlockNeeds block_needs(double speed_bound);
     double collision_rate(const BlockNeeds& needs) const;
-    bool can_run_alone(double until_stop) const;
+    bool can_run_alone() const;
     double speed_bound_until(double target) const;
     double largest_of_all() const;
     void record_first_speed();
@@ -134,10 +142,12 @@ private:
     void learn_crowding();
     double measure_crowding(const CellBlock& cells);
     void take_crowding(std::uint64_t of_all);
-    BlockGround ground_of_blocks(double stop);
-    void run_blocks(double stop);
-    void commit();
-    void log_events(const BlockOutcome& outcome);
+    BlockNotes notes() const;
+    BlockGround ground_of_blocks();
+    void run_blocks();
+    void commit(std::size_t first);
+    void add(const BlockPart& part);
+    void log_events(const BlockOutcome& outcome, std::size_t first_part, std::size_t end_part);
 
     Verdict validate();
     void check_partners();
@@ -179,12 +189,14 @@ private:
     JointReduction<FoundInWindow> reduced_;
     /// Whole numbers, because their sums do not depend on the order
     static constexpr double crowding_unit = 1024;
-    bool is_largest_known_ = false;        ///< `reduced_` holds the largest speed of all ranks
-    std::uint64_t n_events_in_window_ = 0; ///< events of the window on all ranks so far
-    RollbackCounts counts_;                ///< counts of blocks are those of this rank
+    bool is_largest_known_ = false; ///< `reduced_` holds the largest speed of all ranks
+    RollbackCounts counts_;         ///< counts of blocks are those of this rank
 
     BlockChoice choice_;
     BlockWindow window_;
+    std::vector<double> stops_;    ///< times inside the window at which its parts end
+    std::size_t n_parts_done_ = 0; ///< parts that discs have carried out
+    BlockNotes notes_;             ///< what blocks record of this window
     bool is_alone_ = false; ///< a single run of the whole box is used, for few discs on one rank
     BoxCells box_cells_;    ///< cells for runs of the whole box
     int common_depth_ = 0;  ///< depth in reaches that the halos of all ranks have

@@ -5,8 +5,13 @@
 namespace carrom {
 
 template <class Dynamics>
-void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
-    for (const LoggedEvent& event : outcome.log) {
+void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome, std::size_t first_part,
+                                             std::size_t end_part) {
+    const auto of_parts = [&](std::size_t BlockPart::* number, auto all) {
+        const auto [first, end] = outcome.entries(number, first_part, end_part);
+        return all.subspan(first, end - first);
+    };
+    for (const LoggedEvent& event : of_parts(&BlockPart::n_logged, std::span(outcome.log))) {
         double mass = 1;
         if constexpr (Dynamics::has_species) mass = dynamics_.species_table().of(event.p).mass;
         const Frame frame = dynamics_.frame_at(event.time);
@@ -28,12 +33,13 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome) {
                  event.is_wall ? Collision::wall : event.q, event.impulse * unit});
     }
     this->wall_followers_.hand_over();
-    this->pair_followers_.give(outcome.pairs.all());
+    this->pair_followers_.give(of_parts(&BlockPart::n_pairs, outcome.pairs.all()));
 }
 
 // These members are called from event_driven_engine.cpp, where the rest of the class is compiled.
 #define CARROM_DEFINE(Dynamics)                                                                    \
-    template void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome&);
+    template void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome&, std::size_t,        \
+                                                          std::size_t);
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE
 

@@ -44,6 +44,7 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
     }
     if (found.ranks_to_stop > 0) throw StopRequested("stopped on request inside a step");
     if (found.ranks_too_fast > 0) return Verdict::too_fast;
+    if (found.cascades > 0 && !stops_.empty()) return Verdict::fails_later;
     if (found.cascades > 0) fail_on_cascade();
     if (!block_tuning_.is_validated || found.marked_blocks + found.cascades == 0)
         return Verdict::exact;

@@ -20,9 +20,8 @@ namespace {
 constexpr double jam_heating = 64;
 /// Up to this many discs a single block without a halo is fastest on one thread.
 constexpr double most_discs_alone = 30000;
-/// The largest number of collisions per disc between two stops, times the number of threads, for
-/// which one thread is faster than all. Only one thread can continue its windows after stops.
-constexpr double most_hits = 0.25;
+/// Stops in a window. Windows for more of them would save little, and parts take memory.
+constexpr std::int64_t most_stops = 256;
 
 } // namespace
 
@@ -89,14 +88,11 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
                  static_cast<std::int64_t>(safe));
 }
 
-/// Whether a single run of the whole box is used, if the run next stops after this time. With
-/// several threads each stop would end a window.
-template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone(double until_stop) const {
+/// Whether one run of the whole box serves.
+template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone() const {
     const auto n = static_cast<double>(discs_.n_total());
-    const double hits = policy_.collision_rate() * until_stop * tuning_.threads;
     const bool is_few = tuning_.threads == 1 ||
-                        n < 2 * static_cast<double>(tuning_.discs_per_thread) ||
-                        (this->windows_pass_stops() && !jam_watch_.is_on() && hits < most_hits);
+                        n < 2 * static_cast<double>(tuning_.discs_per_thread);
     return communicator_.size() == 1 && is_few && n <= most_discs_alone && !block_tuning_.halo &&
            !block_tuning_.block_side && !block_tuning_.cuts_by_work;
 }
@@ -124,7 +120,7 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::collision_rate(const BlockNeeds& needs) const {
     if (n_windows_ > 0)
-        return static_cast<double>(n_events_in_window_) /
+        return static_cast<double>(reduced_.counts.events) /
                (std::max(needs.n_discs, 1.0) * policy_.last_duration());
     const double largest = communicator_.max(largest_speed_);
     if (!(largest > 0)) return 0;
@@ -138,6 +134,25 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
     for (const Block& block : blocks_) fastest = std::max(fastest, block.outcome.too_fast);
     window_ = shortened(window_, communicator_.max(fastest) * policy_.speed_allowance(),
                         dynamics_.diameter());
+    std::erase_if(stops_, [this](double stop) { return stop >= window_.end; });
+}
+
+/// The latest end of a window, if the run stops at `target`.
+template <class Dynamics> double EventDrivenEngine<Dynamics>::horizon(std::int64_t target) const {
+    if (jam_watch_.is_on()) return std::min(time_of(target), jam_watch_.bin_end());
+    return time_of(std::min(this->horizon_of(target), target + most_stops * this->stop_interval()));
+}
+
+/// Lists the stops inside the window, if the next one is `target`.
+template <class Dynamics> void EventDrivenEngine<Dynamics>::list_stops(std::int64_t target) {
+    stops_.clear();
+    for (std::int64_t stop = target; time_of(stop) < window_.end; stop += this->stop_interval())
+        stops_.push_back(time_of(stop));
+}
+
+template <class Dynamics> void EventDrivenEngine<Dynamics>::end_at_first_stop() {
+    window_.end = stops_.front();
+    stops_.clear();
 }
 
 // These members are called from event_driven_engine.cpp, where the rest of the class is compiled.
@@ -146,7 +161,10 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
     template void EventDrivenEngine<Dynamics>::record_first_speed();                               \
     template bool EventDrivenEngine<Dynamics>::are_jammed() const;                                 \
     template void EventDrivenEngine<Dynamics>::refuse_jam() const;                                 \
-    template bool EventDrivenEngine<Dynamics>::can_run_alone(double) const;                        \
+    template bool EventDrivenEngine<Dynamics>::can_run_alone() const;                              \
+    template double EventDrivenEngine<Dynamics>::horizon(std::int64_t) const;                      \
+    template void EventDrivenEngine<Dynamics>::list_stops(std::int64_t);                           \
+    template void EventDrivenEngine<Dynamics>::end_at_first_stop();                                \
     template void EventDrivenEngine<Dynamics>::shorten();
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)
 #undef CARROM_DEFINE

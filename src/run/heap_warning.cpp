@@ -11,6 +11,7 @@
 #include "dynamics/contact_guard.hpp"
 #include "dynamics/contact_impulses.hpp"
 #include "scene/key.hpp"
+#include "scene/limits.hpp"
 
 namespace carrom {
 

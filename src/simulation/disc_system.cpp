@@ -97,8 +97,8 @@ double heaviest_of(const SceneParameters& scene) {
     return heaviest;
 }
 
-/// Whether nothing can change the kinetic energy. Otherwise averages need more samples, each of
-/// which ends the windows of several blocks, which in a slow gas costs as much as ten steps.
+/// Whether nothing can change the kinetic energy. Otherwise averages need more samples, and each
+/// takes two passes over the discs.
 bool keep_energy_of_motion(Effects effects) {
     effects.species.clear();
     if (effects.contact.kind == ContactKind::none) effects.contact = {};

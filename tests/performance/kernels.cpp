@@ -235,9 +235,7 @@ void block_run(benchmark::State& state) {
                              .n_own = gas.discs.size(),
                              .grid = &grid,
                              .own_cells = all_cells,
-                             .window = window,
-                             .since = window.begin,
-                             .stop = window.end};
+                             .window = window};
     for (auto _ : state) {
         block_run.run(ground, all_cells, 0, histories, outcome);
         benchmark::DoNotOptimize(outcome.n_events);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps a scene on one thread. All steps are one call, or all positions are read after every few
-// steps, as a program does that analyses a run. look_costs.py counts the instructions below
-// `step_and_look`.
+// Steps a scene on OMP_NUM_THREADS threads. All steps are one call, or all positions are read after
+// every few steps, as a program does that analyses a run. look_costs.py counts the instructions
+// below `step_and_look`.
 //   look_costs SCENE STEPS EVERY [KEY=VALUE ...]    EVERY: steps between reads; 0: no reads
 #include <algorithm>
 #include <cstdio>
@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
             const std::size_t sign = setting.find('=');
             scene.set(setting.substr(0, sign), std::string_view(setting).substr(sign + 1));
         }
-        Simulation simulation(session, scene, {.threads = 1});
+        Simulation simulation(session, scene);
         std::vector<double> xy(2 * simulation.scene().n_discs);
         step_to(simulation, steps_before, every, xy);
         const Totals before = simulation.totals();
@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
                             static_cast<double>(after.pair_collisions - before.pair_collisions) /
                             static_cast<double>(simulation.scene().n_discs) /
                             static_cast<double>(last - steps_before);
-        std::printf("%s %.4f\n", to_string(after.hash).c_str(), rate);
+        if (session.rank() == 0) std::printf("%s %.4f\n", to_string(after.hash).c_str(), rate);
         return 0;
     });
 }

@@ -6,10 +6,14 @@
                                                          over 30 % more
   tests/performance/look_costs.py LOOK_COSTS --table     gases of many packings and speeds, at 1e4
                                                          discs: some ten minutes
+  tests/performance/look_costs.py LOOK_COSTS --shapes    the slow gas with 1e4 discs on one and two
+                                                         threads and on two ranks, which mpiexec or
+                                                         the variable CARROM_MPIEXEC starts
 
 valgrind counts (callgrind, without its cache model) what happens below `step_and_look` of the
 program look_costs: 64 steps on one thread, after 64 others, with the averages that every run takes.
-With fewer discs, what a call costs whatever their number counts more.
+With fewer discs, what a call costs whatever their number counts more. On several threads or ranks
+it counts what all of them do.
 Without valgrind the test is left out, with code 77.
 """
 
@@ -25,6 +29,13 @@ from typing import NamedTuple
 STEPS, MOST = 64, 1.3
 SIDES = ("left", "right", "bottom", "top")
 METHODS = ("event-driven", "time-stepped")
+
+
+class Shape(NamedTuple):
+    """Ranks and threads of each."""
+
+    ranks: int = 1
+    threads: int = 1
 
 
 class Counted(NamedTuple):
@@ -45,39 +56,55 @@ def scene_of(count: int, packing: float, speed: float, is_periodic: bool) -> str
     )
 
 
-def counted(program: str, scene: str, method: str, every: int) -> Counted:
-    """Return what a run with a look after each `every` steps takes; 0: with no look."""
+def collected(words: list, shape: Shape, options: tuple = ()) -> tuple:
+    """Run a program under callgrind; return what it prints and the instructions of all ranks."""
+    launcher = [os.environ.get("CARROM_MPIEXEC", "mpiexec"), "-n", str(shape.ranks)]
     with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "scene.toml")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(scene)
-        words = [program, path, str(STEPS), str(every), f"time.method={method}"]
         run = subprocess.run(
             [
+                *(launcher if shape.ranks > 1 else []),
                 "valgrind",
                 "--tool=callgrind",
-                f"--callgrind-out-file={folder}/out",
-                "--collect-atstart=no",
-                "--toggle-collect=step_and_look*",
+                f"--callgrind-out-file={folder}/out.%p",
+                *options,
                 *words,
             ],
-            env={**os.environ, "OMP_NUM_THREADS": "1", "GOMP_SPINCOUNT": "0"},
+            env={**os.environ, "OMP_NUM_THREADS": str(shape.threads), "GOMP_SPINCOUNT": "0"},
             capture_output=True,
             text=True,
             timeout=600,
             check=False,
         )
-    found = re.search(r"Collected : (\d+)", run.stderr)
-    if run.returncode != 0 or not found:
+    found = re.findall(r"Collected : (\d+)", run.stderr)
+    if run.returncode != 0 or len(found) != shape.ranks:
         sys.exit(f"{' '.join(words)} failed:\n{run.stderr}")
-    state_hash, rate = run.stdout.split()
+    return run.stdout.split(), sum(map(int, found))
+
+
+def counted(program: str, scene: str, method: str, every: int, shape: Shape) -> Counted:
+    """Return what a run with a look after each `every` steps takes; 0: with no look."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "scene.toml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(scene)
+
+        def words(steps: int) -> list:
+            return [program, path, str(steps), str(every), f"time.method={method}"]
+
+        if shape == Shape():
+            only = ("--collect-atstart=no", "--toggle-collect=step_and_look*")
+            printed, instructions = collected(words(STEPS), shape, only)
+        else:  # callgrind would leave out what other threads do
+            printed, instructions = collected(words(STEPS), shape)
+            instructions -= collected(words(0), shape)[1]
+    state_hash, rate = printed
     count = int(re.search(r"count = (\d+)", scene).group(1))
-    return Counted(state_hash, float(rate), int(found.group(1)) / STEPS / count)
+    return Counted(state_hash, float(rate), instructions / STEPS / count)
 
 
-def compare(program: str, scene: str, method: str) -> float:
+def compare(program: str, scene: str, method: str, shape: Shape = Shape()) -> float:
     """Print and return the ratio of both runs, which must have the same state."""
-    once, each = (counted(program, scene, method, every) for every in (0, 1))
+    once, each = (counted(program, scene, method, every, shape) for every in (0, 1))
     ratio = each.instructions / once.instructions
     print(
         f"{method}: {once.rate:.3g} collisions a disc and step; {once.instructions:.0f} "
@@ -92,10 +119,20 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", metavar="LOOK_COSTS")
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--shapes", action="store_true")
     options = parser.parse_args()
     if not shutil.which("valgrind"):
         print("left out: there is no valgrind")
         return 77
+    if options.shapes:
+        for is_periodic in (False, True):
+            for shape in (Shape(), Shape(threads=2), Shape(ranks=2)):
+                sides = "periodic sides" if is_periodic else "walls"
+                print(f"{sides}, {shape.ranks} x {shape.threads}")
+                scene = scene_of(10_000, 0.3, 0.1, is_periodic)
+                for method in METHODS:
+                    compare(options.program, scene, method, shape)
+        return 0
     if not options.table:
         ratios = []
         for is_periodic in (False, True):
