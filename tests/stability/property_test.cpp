@@ -199,12 +199,12 @@ bool has_same_bits_begun_again(const TestScene& scene, Method method, const Outc
     return second.totals().hash == end.totals.hash;
 }
 
-/// The scene with every step checked, but for boxes with open sides.
+/// The scene with every step checked.
 Outcome run_checked(const TestScene& scene, Method method) {
     SceneParameters checked = scene_of(scene);
     checked.method = method;
     DiscSystem system = start(scene, method);
-    if (!scene.setting.effects.have_open_boundaries()) system.check_every_step(checked);
+    system.check_every_step(checked);
     run_to(system, scene.steps);
     return outcome_of(system);
 }
