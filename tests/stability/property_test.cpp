@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties that hold for every scene, on random ones drawn for trouble (troubled_scenes.hpp), for
-// both methods: the reference's bits; no disc lost; energy to 1e-12; nothing outside the box;
-// counters that agree with the log; the log in order; transposed scenes have transposed bits;
-// another storage order has the same bits. With effects drawn as well (troubled_effects.hpp): the
-// reference's bits, no disc lost, a log that agrees, another storage order. With discs that differ,
-// turn, leave and meet obstacles (troubled_bodies.hpp): the same, each disc's own counters, energy,
-// what the self-check holds a run to, and a restart.
+// Properties of every scene, tested on random ones in which errors are likely
+// (troubled_scenes.hpp), for both methods: the reference's bits; no disc lost; energy to 1e-12;
+// nothing outside the box; counters that agree with the log; the log in order; transposed scenes
+// have transposed bits; another order in memory has the same bits. With random effects
+// (troubled_effects.hpp): the reference's bits, no disc lost, a log that agrees, another order in
+// memory. With discs that differ, turn, leave and meet obstacles (troubled_bodies.hpp): the same,
+// each disc's own counters, energy, the self-check, and a restart.
 //
-// A scene that fails is made small and printed; kept in tests/stability/regressions it is tried for
-// ever after. $CARROM_TEST_SCENES sets how many scenes are drawn, $CARROM_TEST_SEED where they
-// begin.
+// A scene that fails is reduced and printed. If it is added to tests/stability/regressions, it is
+// tested in every run. $CARROM_TEST_SCENES sets how many scenes are drawn, $CARROM_TEST_SEED the
+// first seed.
 #include "catch.hpp"
 #include <omp.h>
 
@@ -38,11 +38,11 @@ namespace {
 
 constexpr Method both[] = {Method::time_stepped, Method::event_driven};
 
-std::uint64_t n_cascades = 0; ///< scenes that are left out, for want of a reference
+std::uint64_t n_cascades = 0; ///< scenes that are left out, because their reference does not end
 
 struct State {
     std::vector<DiscState> discs;
-    std::vector<double> spins; ///< of rough discs
+    std::vector<double> spins; ///< spins of rough discs
 
     StateHash hash() const {
         StateHash sum = hash_of(discs);
@@ -58,7 +58,7 @@ template <class Reference> State state_after(Reference reference, std::int64_t s
             {reference.spins().begin(), reference.spins().end()}};
 }
 
-/// The state that the rule's reference ends in; none if it is in collisions without end.
+/// The final state of the method's reference; none in a collision cascade.
 std::optional<State> reference_state(const TestScene& scene, Method method) {
     if (method == Method::time_stepped)
         return state_after(reference::TimeSteppedReference(scene.setting, scene.discs),
@@ -77,7 +77,7 @@ bool is_transposed(const DiscState& a, const DiscState& b) {
            a.wall_collisions == b.wall_collisions && a.pair_collisions == b.pair_collisions;
 }
 
-/// Whether the log counts what the discs count, in times that are in order and in range.
+/// Whether the log agrees with the discs' counters, and its times are in order and in range.
 bool log_agrees(const TestScene& scene, Method method, const Totals& totals) {
     std::uint64_t n_walls = 0, n_pairs = 0;
     double last = 0;
@@ -101,7 +101,8 @@ bool has_same_bits_in_another_order(const TestScene& scene, Method method, const
     return run(scene, method, tuning, 7).totals.hash == end.totals.hash;
 }
 
-/// The first property that does not hold whatever the effects; empty if all do. **Collective.**
+/// The first property that fails, of those that hold under any effects; empty if all hold.
+/// **Collective.**
 std::string broken_with_effects(const TestScene& scene, Method method) {
     const auto expected = reference_state(scene, method);
     if (!expected) return {};
@@ -114,7 +115,7 @@ std::string broken_with_effects(const TestScene& scene, Method method) {
     return {};
 }
 
-/// Whether the log says of each disc what its counters say.
+/// Whether the log agrees with the counters of each disc.
 bool counters_agree(const TestScene& scene, Method method, const std::vector<DiscState>& discs) {
     std::vector<std::array<std::uint64_t, 2>> n(discs.size());
     for (const Collision& collision : collisions_of(scene, method)) {
@@ -126,7 +127,7 @@ bool counters_agree(const TestScene& scene, Method method, const std::vector<Dis
     });
 }
 
-/// Of motion and of spins, twice.
+/// Twice the energy of motion and of spins.
 long double energy_of(const State& state, const reference::Setting& setting) {
     long double sum = 0;
     for (const DiscState& disc : state.discs) {
@@ -140,8 +141,8 @@ long double energy_of(const State& state, const reference::Setting& setting) {
     return sum;
 }
 
-/// Energy never grows where nothing gives any, and stays where nothing takes any either. (With
-/// gravity the self-check covers it.)
+/// Energy never grows if nothing gives any, and is constant if nothing takes any either. (Under
+/// gravity the self-check tests it.)
 bool energy_is_right(const TestScene& scene, const State& end) {
     const Effects& effects = scene.setting.effects;
     const auto has_side = [&effects](auto is_so) {
@@ -167,7 +168,7 @@ bool energy_is_right(const TestScene& scene, const State& end) {
     return (may_take ? growth : std::fabs(growth)) <= 1e-12L * before;
 }
 
-/// Whether the scene written as TOML is one that the program takes, and the same one.
+/// Whether the program accepts the scene written as TOML, and reads the same scene.
 bool reads_back(const TestScene& scene, Method method) {
     const auto [read, methods] = regression_of(toml_of(scene, method), "drawn.toml");
     const auto has_no_spin = [](const std::vector<double>& spins) {
@@ -180,7 +181,7 @@ bool reads_back(const TestScene& scene, Method method) {
            (spins_read == spins || (has_no_spin(spins) && has_no_spin(spins_read)));
 }
 
-/// The same run, stopped half-way and begun again from what is stored.
+/// Whether the same run has the same bits if it is stopped half-way and restarted.
 bool has_same_bits_begun_again(const TestScene& scene, Method method, const Outcome& end) {
     SceneParameters again = scene_of(scene);
     again.method = method;
@@ -199,18 +200,18 @@ bool has_same_bits_begun_again(const TestScene& scene, Method method, const Outc
     return second.totals().hash == end.totals.hash;
 }
 
-/// The scene with every step checked.
+/// Runs the scene with a self-check at every step, except in boxes with open sides.
 Outcome run_checked(const TestScene& scene, Method method) {
     SceneParameters checked = scene_of(scene);
     checked.method = method;
     DiscSystem system = start(scene, method);
-    system.check_every_step(checked);
+    if (!scene.setting.effects.have_open_boundaries()) system.check_every_step(checked);
     run_to(system, scene.steps);
     return outcome_of(system);
 }
 
-/// The same for discs that differ, turn and leave, among obstacles. What follows a colon is told,
-/// and not compared. **Collective.**
+/// The same for discs that differ, turn and leave, among obstacles. Text after a colon is printed
+/// but not compared. **Collective.**
 std::string broken_among_bodies(const TestScene& scene, Method method) {
     if (!is_clear(scene)) return "drawn with an overlap";
     try {
@@ -264,8 +265,8 @@ std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
     return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
-/// `draw(seed, rule)` makes the scenes, which are drawn `how`; `broken(scene, rule)` says what is
-/// wrong with one.
+/// `draw(seed, method)` makes the scenes, whose kind is `how`; `broken(scene, method)` describes
+/// what fails in one.
 template <class Draw>
 void try_scenes(const std::string& how, std::uint64_t first, std::uint64_t count, const Draw& draw,
                 std::string (*broken_in)(const TestScene&, Method) = broken_property) {
@@ -283,7 +284,7 @@ void try_scenes(const std::string& how, std::uint64_t first, std::uint64_t count
             const TestScene small = shrunk(scene, [&](const TestScene& trial) {
                 try {
                     return kind(broken_in(trial, method)) == kind(broken);
-                } catch (const InputError&) { // rounded places may overlap
+                } catch (const InputError&) { // positions may overlap after rounding
                     return false;
                 }
             });
