@@ -16,7 +16,9 @@ namespace carrom {
 enum class Invariant : int {
     finite,     ///< every number of every state is finite
     owned_once, ///< each of the discs 0 .. N-1 is owned by exactly one rank
+    radius,     ///< the radius that swaps have given a disc is the one that it collides with
     in_box,     ///< the disc's centre is at least a radius away from every wall, within rounding
+    departed,   ///< a disc leaves by an open side, stays outside, and comes back by an inlet only
     in_domain,  ///< the disc is in the domain of the rank that owns it
     in_cell,    ///< the disc is in the cell into which it was sorted
     clear,      ///< the disc does not overlap a fixed body

@@ -16,9 +16,19 @@ std::string text_of(const Finding& f, const SceneParameters& scene, const std::s
             return who + fmt::format("does not exist: ids end at {}", scene.n_discs - 1);
         return who + (f.value == 0 ? "is owned by no rank any more"
                                    : fmt::format("is owned {} times", f.value));
+    case Invariant::radius:
+        return who + fmt::format("has the radius {:.17g} in its column, and collides with {:.17g}",
+                                 f.value, f.bound);
     case Invariant::in_box:
         return who +
                fmt::format("is {:.3g} outside the box; rounding explains {:.3g}", f.value, f.bound);
+    case Invariant::departed:
+        if (f.partner == 0)
+            return who + fmt::format("has departed, and is {:.3g} from where open sides let it go; "
+                                     "rounding explains {:.3g}",
+                                     f.value, f.bound);
+        return who + (f.value < 0 ? "has departed without going through an open side"
+                                  : "has come back into the box, and no inlet has let it in");
     case Invariant::in_domain: return who + fmt::format("is in the domain of rank {}", f.value);
     case Invariant::in_cell: return who + "is not in the cell that it is filed under";
     case Invariant::clear:

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "dynamics/arithmetic.hpp"
+#include "dynamics/surface_table.hpp"
 #include "engine/near_pairs.hpp"
 #include "parallel/exchange.hpp"
 #include "parallel/slabs.hpp"
@@ -24,7 +25,7 @@ struct Part {
     DiscId disc = 0;
     std::int64_t end_of_micro_step = 0;
     std::uint64_t is_wall = 0;
-    double impulse = 0; ///< impulse of a collision with a wall
+    double impulse = 0; ///< impulse of a collision with a wall; 0 for a departure
     double work = 0;    ///< work of growing surfaces
 };
 
@@ -36,14 +37,12 @@ bool is_finite(const DiscState& disc) {
 /// The disc in the box's coordinates: the stored state itself unless the frame moves.
 DiscState as_seen(const DiscState& disc, const Frame& frame, double time,
                   double micro_steps_since_sync) {
-    if (!frame.is_moving) return disc;
+    if (!frame.is_moving || disc.has_departed()) return disc;
     DiscState seen = frame.in_box(disc, time);
     seen.tau = micro_steps_since_sync;
     if (frame.periods.are_any()) set_image(seen, {});
     return seen;
 }
-
-double beyond(double low, double place, double high) { return std::max(low - place, place - high); }
 
 } // namespace
 
@@ -76,9 +75,11 @@ StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species
     energy_given_ = energy_given;
     wall_speed_ = largest_wall_speed(effects_);
     wall_pull_ = largest_wall_pull(effects_);
+    have_open_sides_ = effects_.have_open_boundaries();
     for (const Boundary& side : effects_.boundaries)
-        surfaces_rub_ = surfaces_rub_ || side.surface.rubs();
-    surfaces_rub_ = surfaces_rub_ || effects_.fixed_bodies.surface.rubs();
+        have_inlets_ = have_inlets_ || side.inlet.is_on();
+    for (std::size_t k = 0; k < SurfaceContacts::n_surfaces; ++k)
+        surfaces_rub_ = surfaces_rub_ || does_rub(effects_, k);
     known_.resize(slab_of_rank(communicator.rank(), scene.n_discs, communicator.size()).size());
     for (Known& known : known_) known.free_from = micro_steps_done;
     total_mass_ = effects_.species.empty() ? static_cast<double>(scene.n_discs) : 0;
@@ -87,7 +88,7 @@ StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species
         smallest_mass_ = std::min(smallest_mass_, one.mass);
     }
     fail_if_found(first_not_finite(own, spins), {});
-    fail_if_found(take_records(own, spins, frame, time), {});
+    fail_if_found(take_records(own, spins, {}, frame, time), {});
     before_ = known_;
     double square = 0;
     for (std::size_t i = 0; i < own.size(); ++i) {
@@ -103,8 +104,9 @@ StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species
 }
 
 void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Log log,
-                         std::span<const double> spins, double work_of_images,
+                         const CheckedColumns& columns, double work_of_images,
                          double energy_given) {
+    const std::span<const double> spins = columns.spins;
     work_of_images_ = work_of_images;
     energy_given_before_ = std::exchange(energy_given_, energy_given);
     size_before_ = std::exchange(size_, now.size);
@@ -112,14 +114,17 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     micro_steps_before_ = std::exchange(micro_steps_done_, micro_steps_done);
     const std::span<const DiscState> own = now.population.discs.first(now.population.n_own);
     fail_if_found(first_not_finite(own, spins), log);
-    fail_if_found(take_records(own, spins, now.frame, now.time), log);
+    fail_if_found(take_records(own, spins, columns.departed, now.frame, now.time), log);
+    fail_if_found(first_other_radius(own, columns.swapped_radii), log);
     record_speeds();
-    if (were_rewritten()) // plain discs have flown straight since the sync
-        for (Known& known : known_)
-            known.free_from = std::max(known.free_from,
-                                       micro_steps_done_ / scene_.sync_every * scene_.sync_every);
+    const std::int64_t last_sync = micro_steps_done_ / scene_.sync_every * scene_.sync_every;
+    for (std::size_t i = 0; i < known_.size(); ++i)
+        // These discs have flown straight since the sync.
+        if (were_rewritten() || (before_[i].disc.has_departed() && !known_[i].disc.has_departed()))
+            known_[i].free_from = std::max(known_[i].free_from, last_sync);
     take_log(log);
     fail_if_found(first_out_of_place(now), log);
+    fail_if_found(first_wrong_departure(), log);
     fail_if_found(first_in_fixed_body(now), log);
     fail_if_found(first_wrong_count(), log);
     fail_if_found(find_velocity_change(), log);
@@ -175,6 +180,7 @@ std::vector<SceneDisc> StateCheck::discs_before() const {
     const Extent walls = walls_before();
     std::vector<SceneDisc> discs;
     for (const Known& known : before_) {
+        if (known.disc.has_departed()) continue;
         DiscState disc = known.disc;
         const double radius = species_.of(disc.id).radius * size_at(micro_steps_before_);
         StableArithmetic::advance(disc, clock);
@@ -198,23 +204,34 @@ Finding StateCheck::first_not_finite(std::span<const DiscState> own,
     return {};
 }
 
+Finding StateCheck::first_other_radius(std::span<const DiscState> own,
+                                       std::span<const double> swapped_radii) const {
+    if (swapped_radii.empty()) return {};
+    for (std::size_t i = 0; i < own.size(); ++i)
+        if (const double radius = species_.of(own[i].id).radius; swapped_radii[i] != radius)
+            return {Invariant::radius, communicator_.rank(), own[i].id, swapped_radii[i], radius};
+    return {};
+}
+
 /// Sends every disc to the rank that keeps its record. The `value` of a finding is how often the
 /// disc is owned.
 Finding StateCheck::take_records(std::span<const DiscState> own, std::span<const double> spins,
-                                 const Frame& frame, double time) {
+                                 std::span<const DiscState> departed, const Frame& frame,
+                                 double time) {
     std::vector<std::vector<DiscState>> out(static_cast<std::size_t>(communicator_.size()));
     std::vector<std::vector<double>> spins_out(out.size());
     Finding finding;
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        const DiscState& disc = own[i];
+    const auto send = [&](const DiscState& disc, double spin) {
         if (disc.id >= scene_.n_discs) {
             finding = {Invariant::owned_once, communicator_.rank(), disc.id, 1};
-            continue;
+            return;
         }
         const auto keeper = static_cast<std::size_t>(slab_of_disc(disc.id));
         out[keeper].push_back(disc);
-        if (!spins.empty()) spins_out[keeper].push_back(spins[i]);
-    }
+        if (effects_.have_spins()) spins_out[keeper].push_back(spin);
+    };
+    for (std::size_t i = 0; i < own.size(); ++i) send(own[i], spins.empty() ? 0 : spins[i]);
+    for (const DiscState& disc : departed) send(disc, 0);
     const Received<DiscState> in = send_to_owners(communicator_, out);
     if (effects_.have_spins()) {
         const Received<double> spins_in = send_to_owners(communicator_, spins_out);
@@ -222,7 +239,10 @@ Finding StateCheck::take_records(std::span<const DiscState> own, std::span<const
             known_[in.items[i].id - first_id_].spin = spins_in.items[i];
     }
     std::vector<int> n_owners(known_.size(), 0);
-    for (Known& known : known_) known.walls = known.pairs = 0, known.wall_impulse = known.work = 0;
+    for (Known& known : known_) {
+        known.walls = known.pairs = known.departures = 0;
+        known.wall_impulse = known.work = 0;
+    }
     for (std::size_t k = 0; k < in.n_senders(); ++k) {
         for (const DiscState& disc : in.from(k)) {
             const std::size_t i = disc.id - first_id_;
@@ -257,60 +277,12 @@ void StateCheck::take_log(Log log) {
     for (const Part& part : send_to_owners(communicator_, out).items) {
         Known& known = known_[part.disc - first_id_];
         ++(part.is_wall == 1 ? known.walls : known.pairs);
+        if (have_open_sides_ && part.is_wall == 1 && part.impulse == 0) ++known.departures;
         known.wall_impulse += part.impulse;
         known.work += part.work;
         known.free_from = std::max(known.free_from, part.end_of_micro_step);
     }
     n_pair_collisions_ += communicator_.sum(n_pairs);
-}
-
-Finding StateCheck::first_out_of_place(const LocalView& now) const {
-    const GridGeometry& geometry = now.grid->geometry();
-    const double allowed = scene_.effects.are_any() ? blur(64) : blur(4);
-    const Extent box = extent_at(effects_, scene_.box, static_cast<double>(micro_steps_done_));
-    std::optional<Finding> first;
-    const auto add = [&](Invariant invariant, DiscId id, double value, double bound) {
-        if (!first || invariant < first->invariant)
-            first = Finding{invariant, communicator_.rank(), id, value, bound};
-    };
-    const bool is_filed = now.grid->is_valid(now.population.discs.size());
-    for (std::size_t i = 0; i < now.population.n_own; ++i) {
-        const DiscState& disc = now.population.discs[i];
-        const double x = now.periods.x_of(disc, now.time), y = now.periods.y_of(disc, now.time);
-        const DiscState seen = now.frame.in_box(disc, now.time);
-        const double radius = species_.of(disc.id).radius * size_at(micro_steps_done_);
-        // In a periodic box the image's centre is in the box.
-        const double outside = std::max(
-            now.periods.x != 0 ? beyond(0, x, now.periods.x)
-                               : radius + beyond(box.x_low, seen.x, box.x_high),
-            now.periods.y != 0 ? beyond(0, y, now.periods.y)
-                               : radius + beyond(box.y_low, seen.y, box.y_high));
-        if (outside > allowed) add(Invariant::in_box, disc.id, outside, allowed);
-        const auto [along, across] = turned(geometry.axis, x, y);
-        if (const int owner = now.domains->owner(along, across); owner != communicator_.rank())
-            add(Invariant::in_domain, disc.id, owner, 0);
-        const auto index = static_cast<LocalIndex>(i);
-        const CellGrid::Cell cell = is_filed ? now.grid->cell_of(index) : CellGrid::Cell{-1, -1};
-        if (cell.column != geometry.column_of(along) || cell.row != geometry.row_of(across))
-            add(Invariant::in_cell, disc.id, 0, 0);
-    }
-    return first.value_or(Finding{});
-}
-
-/// In both methods a disc that would run into a fixed body within a micro-step stops
-/// there. `partner` is the fixed body.
-Finding StateCheck::first_in_fixed_body(const LocalView& now) const {
-    if (!fixed_bodies_.are_any()) return {};
-    const double bound = 2 * tolerance_ + blur(64);
-    for (const DiscState& disc : now.population.discs.first(now.population.n_own)) {
-        const DiscState seen = now.frame.in_box(disc, now.time);
-        const auto overlap = fixed_bodies_.deepest_overlap(seen.x, seen.y,
-                                                           species_.of(disc.id).radius, bound);
-        if (overlap.body != BodyContact::no_body)
-            return {Invariant::clear, communicator_.rank(), disc.id, overlap.depth, bound,
-                    overlap.body};
-    }
-    return {};
 }
 
 Finding StateCheck::first_wrong_count() const {

@@ -16,8 +16,12 @@
 // How much energy thermal and moving walls give is not known beforehand, so the energy of discs
 // that have met such a wall is not checked. Other walls give or take at most the impulse times
 // their largest speed. An acceleration that changes in time is seen from a frame that falls with
-// its changing part from the last inspection on: there it does nothing, and walls move. Energies
-// include masses and spins. Price: 128 bytes a disc, every disc and collision sent once a
+// its changing part from the last inspection on: there it does nothing, and walls move. Discs that
+// have departed by open sides stay in the record. A departure is in the log, as a collision with a
+// wall without an impulse. So each disc is in the box or outside as its departures and its returns
+// by inlets say. The energy that a disc takes out of the box or brings in is not known, so neither
+// the disc's energy nor that of all discs is checked in such a step. Energies include masses and
+// spins. Price: 128 bytes a disc, every disc and collision sent once a
 // step, collisions to rank 0.
 #pragma once
 
@@ -42,6 +46,14 @@
 
 namespace carrom {
 
+/// Numbers along the own discs; empty in scenes without them.
+struct CheckedColumns {
+    std::span<const double> spins{};         ///< per micro-step
+    std::span<const double> swapped_radii{}; ///< radii of discs that exchange them
+    /// The discs of this rank that have departed, which are not among the own ones
+    std::span<const DiscState> departed{};
+};
+
 class StateCheck {
 public:
     /// Begins with the present state, which is taken as correct. `scene` must outlive this and have
@@ -57,7 +69,7 @@ public:
     /// `work_of_images` is what Engine::add_work_to has found since then on this rank,
     /// `energy_given` is Engine::energy_given, then and now. **Collective.**
     void inspect(const LocalView& now, std::int64_t micro_steps_done,
-                 std::span<const Collision> log, std::span<const double> spins = {},
+                 std::span<const Collision> log, const CheckedColumns& columns = {},
                  double work_of_images = 0, double energy_given = 0);
 
 private:
@@ -67,6 +79,7 @@ private:
         std::int64_t free_from =
             0; ///< the end of the last micro-step with a collision, or the check's begin
         std::uint64_t walls = 0, pairs = 0; ///< collisions of the disc since the last inspection
+        std::uint64_t departures = 0;       ///< of these with walls, those that are departures
         double wall_impulse = 0;            ///< total impulse of these collisions
         double work = 0; ///< work of growing surfaces in these collisions, per micro-step
         int owner = -1;
@@ -84,11 +97,23 @@ private:
     void fail_if_found(const Finding& mine, Log log);
     std::vector<SceneDisc> discs_before() const;
 
+    Finding first_other_radius(std::span<const DiscState> own,
+                               std::span<const double> swapped_radii) const;
     Finding first_not_finite(std::span<const DiscState> own, std::span<const double> spins) const;
+    /// `departed` are further discs of this rank.
     Finding take_records(std::span<const DiscState> own, std::span<const double> spins,
-                         const Frame& frame, double time);
+                         std::span<const DiscState> departed, const Frame& frame, double time);
     void take_log(Log log);
     Finding first_out_of_place(const LocalView& now) const;
+    Finding first_wrong_departure() const;
+    double from_departure(const DiscState& disc) const;
+    /// How often the disc has come in since the last inspection.
+    double returns_of(std::size_t i) const;
+    /// Whether the disc has left or come in since then, or was outside all the time.
+    bool was_outside(std::size_t i) const {
+        return known_[i].departures > 0 || before_[i].disc.has_departed() ||
+               known_[i].disc.has_departed();
+    }
     Finding first_in_fixed_body(const LocalView& now) const;
     Finding first_wrong_count() const;
     Finding find_velocity_change() const;
@@ -157,6 +182,7 @@ private:
     /// Energies, or the work on a disc's way, depend on these coordinates
     bool depends_on_x_ = false, depends_on_y_ = false;
     bool may_lose_energy_ = false, walls_give_energy_ = false, surfaces_give_energy_ = false;
+    bool have_open_sides_ = false, have_inlets_ = false;
     bool surfaces_rub_ = false; ///< walls or fixed bodies rub, so spins change there
     bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< see CheckAllowance
     /// Energy that effects at syncs gave on this rank, now and at the last inspection

@@ -36,6 +36,7 @@ Finding StateCheck::find_velocity_change() const {
     for (std::size_t i = 0; i < known_.size(); ++i) {
         const Known& now = known_[i];
         const DiscState &disc = now.disc, &then = before_[i].disc;
+        if (was_outside(i)) continue;
         if (now.pairs == 0 && !(surfaces_rub_ && now.walls > 0) &&
             now.spin != before_[i].spin) // `partner` is 1 if the spin has changed
             return {Invariant::motion,
@@ -107,6 +108,9 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
     const double bound = energy_bound + energy_bound_per_collision *
                                             (2 * static_cast<double>(n_pair_collisions_) / n);
     const bool sways = effects_.acceleration().sways();
+    std::size_t n_moved = 0; // discs that have left or come in
+    for (std::size_t i = 0; i < known_.size(); ++i)
+        if (known_[i].departures > 0 || returns_of(i) > 0) ++n_moved;
     const double energy = energy_of(own, sways);
     double expected = energy_, scale = energy_, allowed = bound * energy_;
     if (scene_.effects.are_any()) {
@@ -131,6 +135,7 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
         allowed = bound * scale + n * k * k * communicator_.max(gain) + k * k * work_of_walls();
         energy_ = sways ? energy_of(own) : energy;
     }
+    if (have_open_sides_ && communicator_.any(n_moved > 0)) return {};
     const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
     if (!(scale > 0) || drift <= allowed || known_.empty() || std::isinf(expected)) return {};
     // No disc is to blame, so the lowest disc that collided is reported.
@@ -153,7 +158,8 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     if (fixed_bodies_.are_any() || surfaces_rub_)
         energy.n_reflections = static_cast<double>(known.walls);
     if (FallingFrame(effects_).slows()) energy.allowance += energy_bound * energy.before;
-    if ((walls_give_energy_ && known.walls > 0) || may_have_met_seam(i) || were_rewritten())
+    if ((walls_give_energy_ && known.walls > 0) || may_have_met_seam(i) || were_rewritten() ||
+        was_outside(i))
         energy.allowance = std::numeric_limits<double>::infinity();
     return energy;
 }

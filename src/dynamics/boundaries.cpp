@@ -37,7 +37,7 @@ Boundaries::Boundaries(const Box& box, double radius, const Effects& effects)
                                           8 * 0x1p-52 * box.longest());
         rest_times_[side] = rest_time_at(sides_[side], guard_, pull_[side / 2], sways_[side / 2],
                                          effects.acceleration().period, radius);
-        rubbing_[side] = Rubbing(effects.boundaries[side].surface, effects.contact);
+        surfaces_[side] = SurfaceTable(effects, side);
     }
     moved_ = away_;
 }
@@ -196,9 +196,9 @@ Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double
     const double sign = sign_of(side),
                  wall = oscillates ? oscillating_velocity(side, time) : wall_velocity(side, time);
     const auto& [radius, mass, outwards] = body;
+    const auto& [restitution, rubbing] = surfaces_[side].of(disc.id);
     // As in a bounce from a wall that moves in as fast as the disc grows.
-    const double closing = std::fabs(sign * (wall - normal) + outwards),
-                 restitution = sides_[side].restitution;
+    const double closing = std::fabs(sign * (wall - normal) + outwards);
     const bool is_guarded = guard_.holds_at_wall(since, closing, radius);
     double away = outwards + (is_guarded ? 1 : restitution) * closing;
     if (sides_[side].kind == BoundaryKind::thermal) {
@@ -222,10 +222,10 @@ Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double
         away = std::max(away, guard_.least_departure(pull, radius) / fall_.slowing_at(time));
     const double before = normal;
     normal = wall + sign * away;
-    if (rubbing_[side].acts()) [[unlikely]] {
+    if (rubbing.acts()) [[unlikely]] {
         const double t = sign_along(side);
-        along += t * rubbing_[side].rub(t * (along - surface_velocity(side, time)),
-                                        std::fabs(normal - before), {spin, radius});
+        along += t * rubbing.rub(t * (along - surface_velocity(side, time)),
+                                 std::fabs(normal - before), {spin, radius});
     }
     return guard_.loss(0.5 * mass * (1 - restitution * restitution) * (closing * closing),
                        closing * closing, is_guarded);

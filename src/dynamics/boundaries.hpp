@@ -24,7 +24,7 @@
 #include "dynamics/loss.hpp"
 #include "dynamics/never.hpp"
 #include "dynamics/oscillation.hpp"
-#include "dynamics/rubbing.hpp"
+#include "dynamics/surface_table.hpp"
 
 namespace carrom {
 
@@ -174,7 +174,7 @@ private:
     std::array<Oscillation, 4> oscillations_{};
     /// Time after which a disc that rests at such a wall is back
     std::array<double, 4> rest_times_{};
-    std::array<Rubbing, 4> rubbing_{};
+    std::array<SurfaceTable, 4> surfaces_{};
 };
 
 } // namespace carrom

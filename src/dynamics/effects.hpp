@@ -30,6 +30,11 @@ namespace carrom {
 /// What two touching discs do to each other.
 enum class ContactKind { elastic, none, restitution, rough };
 
+/// Whether two numbers of rows are equal. NaN is a number that a row leaves out.
+inline bool is_same_number(double a, double b) {
+    return a == b || (std::isnan(a) && std::isnan(b));
+}
+
 /// A row of `effects.contact.pairs`: numbers of contacts between discs of two rows of
 /// `discs.species`, counted from 1, in either order. NaN where those of all pairs hold.
 struct ContactPair {
@@ -37,13 +42,22 @@ struct ContactPair {
     double restitution = 1, tangential_restitution = -1, friction = 0;
 
     friend bool operator==(const ContactPair& a, const ContactPair& b) {
-        const auto is_same = [](double x, double y) {
-            return x == y || (std::isnan(x) && std::isnan(y));
-        };
         return a.first == b.first && a.second == b.second &&
-               is_same(a.restitution, b.restitution) &&
-               is_same(a.tangential_restitution, b.tangential_restitution) &&
-               is_same(a.friction, b.friction);
+               is_same_number(a.restitution, b.restitution) &&
+               is_same_number(a.tangential_restitution, b.tangential_restitution) &&
+               is_same_number(a.friction, b.friction);
+    }
+};
+/// A row of `contacts` of a side or of the obstacles: numbers for discs of one row of
+/// `discs.species`, counted from 1. NaN where those of all discs hold.
+struct SurfaceContact {
+    double species = 1;
+    double restitution = 1, tangential_restitution = -1, friction = 0;
+
+    friend bool operator==(const SurfaceContact& a, const SurfaceContact& b) {
+        return a.species == b.species && is_same_number(a.restitution, b.restitution) &&
+               is_same_number(a.tangential_restitution, b.tangential_restitution) &&
+               is_same_number(a.friction, b.friction);
     }
 };
 /// Consecutive ids, up to `end`, of the discs of one row of `discs.species`, counted from 0.
@@ -181,6 +195,19 @@ using Polygon = std::vector<double>;
 /// The shape of the region in which discs move (container.hpp).
 enum class BoxShape { rectangle, round, stadium };
 
+/// Contacts with surfaces that depend on the species of the disc (surface_table.hpp).
+struct SurfaceContacts {
+    /// The sides in the order of Effects::boundaries, then the obstacles
+    static constexpr std::size_t n_surfaces = 5, obstacles = 4;
+
+    std::array<std::vector<SurfaceContact>, n_surfaces> rows{};
+
+    bool is_on() const {
+        return std::any_of(rows.begin(), rows.end(), [](const auto& one) { return !one.empty(); });
+    }
+    friend bool operator==(const SurfaceContacts&, const SurfaceContacts&) = default;
+};
+
 struct FixedBodyList {
     std::vector<FixedDisc> discs;
     std::vector<Segment> segments;
@@ -289,6 +316,7 @@ struct Effects {
     std::uint64_t thermal_seed = 3210;
     std::uint64_t inlet_seed = 3210;
     FixedBodyList fixed_bodies{};
+    SurfaceContacts surface_contacts{};
     std::vector<Species>
         species{};     ///< in the order of ids; empty if all discs have the same radius and mass 1
     double growth = 0; ///< radii grow by this share of their first value per time
@@ -305,8 +333,9 @@ struct Effects {
 
     /// All features; seeds belong to them.
     auto features() const {
-        return std::tie(contact, boundaries, gravity, drag, fixed_bodies, species, growth, shear,
-                        lasting_speed, thermostat, activity, swap, barostat, own, field);
+        return std::tie(contact, boundaries, gravity, drag, fixed_bodies, surface_contacts, species,
+                        growth, shear, lasting_speed, thermostat, activity, swap, barostat, own,
+                        field);
     }
     /// The acceleration of discs in free flight by all fields together, without drag.
     Acceleration acceleration() const { return gravity; }

@@ -38,8 +38,7 @@ double fall_delay(double distance, double rate, double pull, bool is_on_side) {
 } // namespace
 
 FixedBodies::FixedBodies(const Box& box, double largest_radius, const Effects& effects)
-    : restitution_(effects.fixed_bodies.restitution), guard_(effects, largest_radius),
-      rubbing_(effects.fixed_bodies.surface, effects.contact),
+    : surface_(effects, SurfaceContacts::obstacles), guard_(effects, largest_radius),
       pull_{effects.acceleration().x, effects.acceleration().y},
       n_fixed_discs_(effects.fixed_bodies.discs.size()),
       container_(effects.fixed_bodies.shape, box), periods_(effects.periods(box)),
@@ -330,9 +329,10 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     const Normal from_body = normal_of(at, dx, dy);
     const double nx = from_body.x, ny = from_body.y;
     const double slides = from_body.is_hollow ? -at.slides : at.slides;
+    const auto& [restitution, rubbing] = surface_.of(disc.id);
     const double normal = nx * (disc.vx + pull_[0] * time) + ny * (disc.vy + pull_[1] * time);
     const bool is_guarded = guard_.holds_at_wall(since, std::fabs(normal), turning.radius);
-    double away = (is_guarded ? 1 : restitution_) * std::fabs(normal);
+    double away = (is_guarded ? 1 : restitution) * std::fabs(normal);
     // A disc that is pulled back leaves fast enough to stay away for a contact time, as at walls.
     double pull = -(nx * pull_[0] + ny * pull_[1]);
     const auto speed_along = [&] {
@@ -340,18 +340,18 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     };
     if (from_body.is_hollow) {
         const double along = speed_along();
-        if (restitution_ < 1) pull += along * along / (at.radius - turning.radius);
+        if (restitution < 1) pull += along * along / (at.radius - turning.radius);
         away = std::max(away, least_slope * std::fabs(along));
     }
     if (pull > 0) away = std::max(away, guard_.least_departure(pull, turning.radius));
     disc.vx += (away - normal) * nx;
     disc.vy += (away - normal) * ny;
     const double square = normal * normal;
-    const Loss loss = guard_.loss(0.5 * (1 - restitution_ * restitution_) * square, square,
+    const Loss loss = guard_.loss(0.5 * (1 - restitution * restitution) * square, square,
                                   is_guarded);
-    if (!rubbing_.acts()) return loss;
-    const double change = rubbing_.rub(speed_along() - slides * rubbing_.velocity(),
-                                       std::fabs(away - normal), turning);
+    if (!rubbing.acts()) return loss;
+    const double change = rubbing.rub(speed_along() - slides * rubbing.velocity(),
+                                      std::fabs(away - normal), turning);
     disc.vx -= change * ny;
     disc.vy += change * nx;
     return loss;

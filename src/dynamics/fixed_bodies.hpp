@@ -27,7 +27,7 @@
 #include "dynamics/container.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/loss.hpp"
-#include "dynamics/rubbing.hpp"
+#include "dynamics/surface_table.hpp"
 
 namespace carrom {
 
@@ -151,9 +151,8 @@ private:
     }
     double fallen(std::size_t axis, double time) const { return (0.5 * pull_[axis] * time) * time; }
 
-    double restitution_;
+    SurfaceTable surface_;
     ContactGuard guard_;
-    Rubbing rubbing_;
     std::array<double, 2> pull_;
     std::size_t n_fixed_discs_;
     Container container_;

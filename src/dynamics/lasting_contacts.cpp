@@ -12,8 +12,6 @@ namespace carrom {
 
 namespace {
 
-double friction_of(const Surface& surface) { return surface.rubs() ? surface.friction : 0; }
-
 double friction_of(ContactKind kind, const PairFactors& pair) {
     return kind == ContactKind::rough && pair.tangential != 0 ? pair.friction : 0;
 }
@@ -124,7 +122,9 @@ struct LastingContactFinder::Search {
 LastingContactFinder::LastingContactFinder(const Box& box, const Effects& effects)
     : box_(box), effects_(effects),
       pair_friction_(friction_of(effects.contact.kind, PairFactors::common(effects.contact))),
-      pairs_(effects.contact) {}
+      pairs_(effects.contact) {
+    for (std::size_t k = 0; k < surfaces_.size(); ++k) surfaces_[k] = SurfaceTable(effects, k);
+}
 
 std::vector<LastingContact> LastingContactFinder::find(std::span<const HeapDisc> discs,
                                                        std::span<const double> radii,
@@ -162,6 +162,13 @@ void LastingContactFinder::add_pairs(Search& search) const {
     }
 }
 
+/// Begins a contact of disc i with a fixed body.
+void LastingContactFinder::begin_at(const SurfaceTable& surface, std::uint32_t i,
+                                    const HeapDisc& disc, LastingContact& contact) {
+    contact.a = i;
+    contact.friction = surface.of(disc.id).rubbing.friction();
+}
+
 /// Thermal and moving walls have no lasting contacts. In a box of another shape discs do not reach
 /// the sides.
 void LastingContactFinder::add_walls(Search& search) const {
@@ -173,14 +180,14 @@ void LastingContactFinder::add_walls(Search& search) const {
         contact.body = side;
         const double sign = side % 2 == 0 ? -1 : 1;
         (side < 2 ? contact.nx : contact.ny) = sign;
-        contact.friction = friction_of(wall.surface);
+        const SurfaceTable& surface = surfaces_[static_cast<std::size_t>(side)];
         // The surface moves along +x or +y.
         contact.velocity = wall.surface.velocity * (side < 2 ? contact.nx : -contact.ny);
         for (std::uint32_t i = 0; i < search.discs.size(); ++i) {
             const double place = side < 2 ? search.discs[i].x : search.discs[i].y,
                          length = side < 2 ? box_.x : box_.y;
             contact.gap = (side % 2 == 0 ? place : length - place) - search.radii[i];
-            contact.a = i;
+            begin_at(surface, i, search.discs[i], contact);
             if (contact.gap < search.widest_gap) search.found.push_back(contact);
         }
     }
@@ -189,8 +196,8 @@ void LastingContactFinder::add_walls(Search& search) const {
 /// The surface of a fixed body moves counterclockwise around it.
 void LastingContactFinder::add_fixed_bodies(Search& search) const {
     const FixedBodyList& fixed_bodies = effects_.fixed_bodies;
+    const SurfaceTable& surface = surfaces_[SurfaceContacts::obstacles];
     LastingContact contact;
-    contact.friction = friction_of(fixed_bodies.surface);
     contact.velocity = -fixed_bodies.surface.velocity;
     contact.body = 3;
     const double reach = search.largest_radius + search.widest_gap;
@@ -199,7 +206,7 @@ void LastingContactFinder::add_fixed_bodies(Search& search) const {
         ++contact.body;
         search.in_rectangle(body.x - far, body.x + far, body.y - far, body.y + far,
                             [&](std::uint32_t i) {
-                                contact.a = i;
+                                begin_at(surface, i, search.discs[i], contact);
                                 search.add(contact, body.x - search.discs[i].x,
                                            body.y - search.discs[i].y, body.radius);
                             });
@@ -216,7 +223,7 @@ void LastingContactFinder::add_fixed_bodies(Search& search) const {
                             [&](std::uint32_t i) {
                                 const HeapDisc& disc = search.discs[i];
                                 const auto [x, y] = nearest_point(line, disc.x, disc.y);
-                                contact.a = i;
+                                begin_at(surface, i, disc, contact);
                                 search.add(contact, x - disc.x, y - disc.y, 0);
                             });
     }
@@ -228,12 +235,13 @@ void LastingContactFinder::add_arc(Search& search, const Arc& arc, LastingContac
     ++contact.body;
     const double far = arc.radius + search.largest_radius + search.widest_gap,
                  velocity = effects_.fixed_bodies.surface.velocity;
+    const SurfaceTable& surface = surfaces_[SurfaceContacts::obstacles];
     const ArcSpan span = span_of(arc);
     const PointOfArc from = point_of(arc, arc.from), to = point_of(arc, arc.to);
     search.in_rectangle(arc.x - far, arc.x + far, arc.y - far, arc.y + far, [&](std::uint32_t i) {
         const double dx = search.discs[i].x - arc.x, dy = search.discs[i].y - arc.y,
                      distance = std::sqrt(dx * dx + dy * dy);
-        contact.a = i;
+        begin_at(surface, i, search.discs[i], contact);
         contact.velocity = distance < arc.radius ? velocity : -velocity;
         if (span.holds(dx, dy, distance)) {
             const double far_off = distance > 0 ? arc.radius / distance - 1 : 0;

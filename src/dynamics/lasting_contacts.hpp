@@ -5,6 +5,7 @@
 // A contact that is left out costs time but causes no error, because its discs collide instead.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/disc_state.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/pair_table.hpp"
+#include "dynamics/surface_table.hpp"
 
 namespace carrom {
 
@@ -56,11 +58,14 @@ private:
     void add_walls(Search& search) const;
     void add_fixed_bodies(Search& search) const;
     void add_arc(Search& search, const Arc& arc, LastingContact& contact) const;
+    static void begin_at(const SurfaceTable& surface, std::uint32_t i, const HeapDisc& disc,
+                         LastingContact& contact);
 
     Box box_;
     Effects effects_;
     double pair_friction_; ///< friction of pairs that no row names
     PairTable pairs_;
+    std::array<SurfaceTable, SurfaceContacts::n_surfaces> surfaces_;
 };
 
 } // namespace carrom

@@ -36,6 +36,8 @@ public:
 
     bool acts() const { return share_ != 0; }
     double velocity() const { return velocity_; }
+    /// Coulomb's coefficient; 0 of a surface that does not act.
+    double friction() const { return acts() ? friction_ : 0; }
 
     /// The change of the velocity along t. `slip` is the velocity of the disc's centre along t
     /// relative to the surface, and `pushed` the magnitude of the change along the normal. Also

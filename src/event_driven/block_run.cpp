@@ -73,7 +73,7 @@ template <class Dynamics> void BlockRun<Dynamics>::run_events(double end) {
     // After a request to stop the loop ends early. This run has no valid result, and the engine
     // gives up the step.
     for (Event event; s.queue.pop(event, end, before, is_current) && !s.outcome->is_cascade &&
-                      !is_stop_overdue();)
+                      !s.is_void && !is_stop_overdue();)
         s.happen(event);
 }
 
@@ -174,23 +174,33 @@ void BlockRun<Dynamics>::Scratch::predict_image(std::uint32_t a, std::uint32_t b
     predict_shifted(a, b, &image);
 }
 
+/// Fixed bodies behind the first side that the disc meets need no search.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::uint32_t slot) {
-    predict_fixed_body(slot);
+    const double begin = ground.window.begin, end = ground.window.end;
+    const DiscState& disc = discs[slot];
     const float x_end = x[slot] + vx[slot], y_end = y[slot] + vy[slot];
     float radius = 0; // only for discs of several sizes; equal discs have it in `bounds`
     if constexpr (has_sizes) radius = radii[slot];
-    if (x_end - radius > x_inner_low && x_end + radius < x_inner_high &&
-        y_end - radius > y_inner_low && y_end + radius < y_inner_high)
-        return;
-    const DiscState& disc = discs[slot];
-    if (!dynamics.may_meet_wall(disc, ground.window.end)) return;
-    push(dynamics.wall_time(disc, Axis::x), slot, x_wall);
-    push(dynamics.wall_time(disc, Axis::y), slot, y_wall);
+    const bool is_inside = x_end - radius > x_inner_low && x_end + radius < x_inner_high &&
+                           y_end - radius > y_inner_low && y_end + radius < y_inner_high;
+    double until = end;
+    if (!is_inside && dynamics.may_meet_wall(disc, end)) {
+        const double x_time = dynamics.wall_time(disc, Axis::x),
+                     y_time = dynamics.wall_time(disc, Axis::y);
+        push(x_time, slot, x_wall);
+        push(y_time, slot, y_wall);
+        if (const double first = std::min(x_time, y_time); first > begin)
+            until = std::min(first, end);
+    }
+    predict_fixed_body(slot, until);
 }
 
-/// Predicts the first fixed body that the disc meets. At the time of its last collision the fixed
-/// body that it has just left does not count, for the same reason as a pair that has just collided.
-template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_fixed_body(std::uint32_t slot) {
+/// Predicts the first fixed body that the disc meets before `until`, the time at which it meets a
+/// side. At the time of its last collision the fixed body that it has just left does not count, for
+/// the same reason as a pair that has just collided.
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::predict_fixed_body(std::uint32_t slot,
+                                                     [[maybe_unused]] double until) {
     if constexpr (Dynamics::may_have_fixed_bodies) {
         if (!dynamics.has_fixed_bodies()) return;
         const BlockWindow& window = ground.window;
@@ -199,7 +209,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_fixed_body(s
                                        ? last - first_fixed_body
                                        : BodyContact::no_body;
         const BodyContact contact = dynamics.first_fixed_body(
-            discs[slot], {window.begin, window.end, window.holds_begin, left});
+            discs[slot], {window.begin, until, window.holds_begin, left});
         if (contact.exists()) push(contact.time, slot, first_fixed_body + contact.body);
     }
 }
@@ -234,7 +244,8 @@ void BlockRun<Dynamics>::Scratch::push(double time, std::uint32_t a, std::uint32
 
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& event) {
     ++outcome->n_carried;
-    if (cascade_watch.add(event.time, Dynamics::cascade_interval, discs.size())) [[unlikely]]
+    if (cascade_watch.add(event.time, Dynamics::cascade_interval, discs.size(), is_wall(event.q)))
+        [[unlikely]]
         give_up(event);
     const bool is_corner = event.q == x_wall &&
                            dynamics.wall_time(discs[event.p], Axis::y) == event.time;
@@ -342,6 +353,8 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
         past_events.history = 1;
     else
         past_events.add(event.time, disc, partner_id, spin_of(slot), speed_class(now));
+    if (now > void_squared) [[unlikely]]
+        end_void_run(now);
     if (is_own[slot] != 0) {
         if (!std::exchange(is_hit[slot], true)) hit_slots.push_back(slot);
         largest_squared = std::max(largest_squared, now);
@@ -352,32 +365,6 @@ void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner
     place(slot, ground.window.begin);
     if (Dynamics::is_periodic && is_whole)
         layout.for_ghosts_of(slot, [this](const Ghost& ghost) { place_ghost(ghost); });
-}
-
-/// A window is exact if no disc is ever further from its initial place than the speed bound allows
-/// at that time. So a disc may exceed the bound for a while without harm if it was slower before.
-/// The run is void if the disc might get too far before the window ends, or if it collides again
-/// while it is too far away.
-template <class Dynamics>
-void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
-    const DiscState &disc = discs[slot], &at_start = ground.discs[indices[slot]];
-    const BlockWindow& window = ground.window;
-    const double elapsed = time - window.begin;
-    double dx = disc.x - at_start.x_at(window.begin);
-    const double dy = disc.y - at_start.y_at(window.begin);
-    if constexpr (Dynamics::has_moving_images) // the fastest image next to the disc counts
-        dx = std::fabs(dx + (periods().vx_of(disc) - disc.vx) * elapsed) +
-             std::fabs(periods().speed) * elapsed;
-    const double away = std::sqrt(dx * dx + dy * dy) * (1 + 1e-12) +
-                        8 * 0x1p-53 * dynamics.box().longest();
-    const double speed = std::sqrt(dynamics.squared_speed(disc));
-    if (speed <= window.speed_bound && away <= window.speed_bound * elapsed) return;
-    // A disc that is hardly too fast might not be tested at its next collision, so it is an error.
-    const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5);
-    if (will_be_seen && speed < 2 * window.speed_bound &&
-        away + speed * (window.end - time) <= window.speed_bound * window.duration())
-        return;
-    too_fast = std::max({too_fast, speed, window.speed_bound * (1 + 1e-6)});
 }
 
 template <class Dynamics> std::size_t BlockRun<Dynamics>::bytes() const {

@@ -173,7 +173,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void predict_pairs_of(std::uint32_t p, std::uint32_t q);
     void predict_pair(std::uint32_t a, std::uint32_t b);
     void predict_walls(std::uint32_t slot);
-    void predict_fixed_body(std::uint32_t slot);
+    void predict_fixed_body(std::uint32_t slot, double until);
     void predict_shifted(std::uint32_t a, std::uint32_t b, const Image* image);
     void predict_image(std::uint32_t a, std::uint32_t b, const Image& image);
     void push(double time, std::uint32_t a, std::uint32_t b, const Image* image = nullptr);
@@ -298,6 +298,11 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         outcome->cascade_time = event.time;
     }
 
+    [[gnu::noinline]] void end_void_run(double squared_speed) {
+        too_fast = std::max(too_fast, std::sqrt(squared_speed));
+        is_void = true;
+    }
+
     /// Call it after the collision, while the second disc is at the position of the event's image.
     [[gnu::noinline]] void record_pair(const Event& event, const PairStress<Dynamics>& before,
                                        const Separation& to) {
@@ -372,7 +377,9 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     StressTerms stress_terms;       ///< terms that have not been added to the part's sums yet
     double bound_squared = 0;       ///< square of the speed bound
     float bound_lane_squared = 0;   ///< the square of a slightly smaller bound, in cells per window
+    double void_squared = 0;        ///< square of the speed with which a run ends at once
     double too_fast = 0;            ///< see BlockOutcome
+    bool is_void = false;           ///< a disc is so fast that the window will be far shorter
     double largest_squared = 0;     ///< square of BlockOutcome::largest_speed
     double classes_per_squared = 1; ///< number of speed classes for each unit of the squared speed
     // Members for discs of several sizes.

@@ -68,7 +68,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::gather() {
     classes_per_squared = bound_squared > 0 ? speed_classes_to_bound / bound_squared : 0x1p1000;
     const double bound_lane = ground.window.speed_bound * cells_per_speed * (1 - 1e-6);
     bound_lane_squared = static_cast<float>(bound_lane * bound_lane);
+    void_squared = bound_squared > 0 ? 0x1p12 * bound_squared : never;
     too_fast = 0;
+    is_void = false;
     cascade_watch = {};
 }
 
@@ -281,6 +283,32 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
 }
 
+/// A window is exact if no disc is ever further from its initial place than the speed bound allows
+/// at that time. So a disc may exceed the bound for a while without harm if it was slower before.
+/// The run is void if the disc might get too far before the window ends, or if it collides again
+/// while it is too far away.
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
+    const DiscState &disc = discs[slot], &at_start = ground.discs[indices[slot]];
+    const BlockWindow& window = ground.window;
+    const double elapsed = time - window.begin;
+    double dx = disc.x - at_start.x_at(window.begin);
+    const double dy = disc.y - at_start.y_at(window.begin);
+    if constexpr (Dynamics::has_moving_images) // the fastest image next to the disc counts
+        dx = std::fabs(dx + (periods().vx_of(disc) - disc.vx) * elapsed) +
+             std::fabs(periods().speed) * elapsed;
+    const double away = std::sqrt(dx * dx + dy * dy) * (1 + 1e-12) +
+                        8 * 0x1p-53 * dynamics.box().longest();
+    const double speed = std::sqrt(dynamics.squared_speed(disc));
+    if (speed <= window.speed_bound && away <= window.speed_bound * elapsed) return;
+    // A disc that is hardly too fast might not be tested at its next collision, so it is an error.
+    const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5);
+    if (will_be_seen && speed < 2 * window.speed_bound &&
+        away + speed * (window.end - time) <= window.speed_bound * window.duration())
+        return;
+    too_fast = std::max({too_fast, speed, window.speed_bound * (1 + 1e-6)});
+}
+
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template void BlockRun<Dynamics>::Scratch::begin(const BlockGround&, BlockOutcome&);           \
     template void BlockRun<Dynamics>::Scratch::list_discs(const CellBlock&, int);                  \
@@ -288,6 +316,7 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     template void BlockRun<Dynamics>::Scratch::gather();                                           \
     template void BlockRun<Dynamics>::Scratch::mark_own(const CellBlock&);                         \
     template void BlockRun<Dynamics>::Scratch::mark_own_of_all(const CellBlock&);                  \
+    template void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t, double);            \
     template void BlockRun<Dynamics>::Scratch::report_hits();                                      \
     template void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t>);
 CARROM_FOR_EACH_DYNAMICS(CARROM_DEFINE)

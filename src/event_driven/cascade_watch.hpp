@@ -11,26 +11,29 @@ public:
     /// Counts a collision. Returns true if there were too many of them in too short a time. That is
     /// either a cascade within `interval` micro-steps, or a rush. In a rush time goes on, but so
     /// slowly that no micro-step would end, for example if a disc is in a slot that is wider than
-    /// the disc only by a rounding error.
-    bool add(double time, double interval, std::uint64_t n_discs) {
+    /// the disc only by a rounding error, or in a wedge whose surfaces slide and drive it. Fewer
+    /// collisions with walls than with discs are a rush, because walls do not give way.
+    bool add(double time, double interval, std::uint64_t n_discs, bool is_wall) {
         if (time > cascade_begin_ + interval) {
             cascade_begin_ = time;
             cascade_ = 0;
             if (time > rush_begin_ + rush_interval) {
                 rush_begin_ = time;
-                rush_ = 0;
+                rush_ = wall_rush_ = 0;
             }
         }
         ++cascade_;
         ++rush_;
-        return cascade_ > 100000 + 1000 * n_discs || rush_ > 5000000 + 50000 * n_discs;
+        wall_rush_ += is_wall ? 1 : 0;
+        return cascade_ > 100000 + 1000 * n_discs || rush_ > 5000000 + 50000 * n_discs ||
+               wall_rush_ > 200000 + 2000 * n_discs;
     }
 
 private:
     static constexpr double rush_interval = 0x1p-16;
 
     double cascade_begin_ = -1, rush_begin_ = -1;
-    std::uint64_t cascade_ = 0, rush_ = 0;
+    std::uint64_t cascade_ = 0, rush_ = 0, wall_rush_ = 0;
 };
 
 } // namespace carrom

@@ -13,6 +13,7 @@
 #include "engine/dynamics_of_scene.hpp"
 #include "engine/state_sums.hpp"
 #include "event_driven/initial_overlaps.hpp"
+#include "event_driven/runaway.hpp"
 #include "parallel/agreement.hpp"
 
 namespace carrom {
@@ -50,6 +51,7 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
     if (tuning_.ends_jams) jam_watch_.start(time_, static_cast<double>(this->last_sync()));
     for (int thread = 0; thread < tuning_.threads; ++thread) block_runs_.emplace_back(dynamics_);
     travel_speed_ = communicator_.max(largest_speed_);
+    runaway_speed_ = runaway_speed(scene, travel_speed_);
     this->distribute();
     learn_crowding();
     if (mean_crowding_ > 1) this->redistribute_now(); // the first cells hold too many discs each

@@ -162,6 +162,7 @@ private:
     bool sees_all(const Block& block) const;
     bool sees_all_images(const Block& block) const;
     void fail_on_cascade() const;
+    [[noreturn]] void refuse_runaway(double speed) const;
 
     /// At least two, because the last own row of cells may end beyond the domain.
     int first_halo_depth() const { return std::max(2, choice_.halo); }
@@ -178,7 +179,8 @@ private:
     double jumped_ = 0; ///< motion of the frame since the last migration, across the cuts
     WindowPolicy policy_;
     double first_packing_ = 0;
-    JamWatch jam_watch_; ///< detects a jam of growing discs
+    double runaway_speed_ = 0; ///< see runaway.hpp
+    JamWatch jam_watch_;       ///< detects a jam of growing discs
     /// Speed of growing discs at the start of this interval or of the engine
     double first_speed_ = 0;
     /// The density in the cell of an own disc relative to the mean of the box, summed over own

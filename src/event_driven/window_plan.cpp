@@ -32,6 +32,7 @@ template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double
     window.holds_begin = time_ == 0;
     window.speed_bound = speed_bound_until(target);
     this->refuse_long_flights(window.speed_bound);
+    if (window.speed_bound > runaway_speed_) refuse_runaway(window.speed_bound);
     if (n_windows_ > 0) take_crowding(reduced_.counts.crowding);
     const BlockNeeds needs = block_needs(window.speed_bound);
     double longest = target - time_;
@@ -41,6 +42,17 @@ template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double
     choice_ = planned.choice;
     window.end = planned.end;
     return window;
+}
+
+/// Windows are chosen alike on all ranks, so all throw.
+template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_runaway(double speed) const {
+    throw CollectiveError(fmt::format(
+        "soon after step {:.9g} a disc flies {:.2g} a step, over 100,000 times as fast as anything "
+        "at the start: surfaces that slide ('velocity' of a side or of effects.obstacles) give "
+        "energy that nothing takes; try: a restitution or a tangential_restitution below 1 there, "
+        "or effects.drag",
+        (static_cast<double>(this->last_sync()) + time_) / static_cast<double>(this->micro_steps_),
+        speed * static_cast<double>(this->micro_steps_)));
 }
 
 /// The largest speed at the window's start. After the first window its value for all ranks is known
@@ -161,6 +173,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::end_at_first_stop() 
     template void EventDrivenEngine<Dynamics>::record_first_speed();                               \
     template bool EventDrivenEngine<Dynamics>::are_jammed() const;                                 \
     template void EventDrivenEngine<Dynamics>::refuse_jam() const;                                 \
+    template void EventDrivenEngine<Dynamics>::refuse_runaway(double) const;                       \
     template bool EventDrivenEngine<Dynamics>::can_run_alone() const;                              \
     template double EventDrivenEngine<Dynamics>::horizon(std::int64_t) const;                      \
     template void EventDrivenEngine<Dynamics>::list_stops(std::int64_t);                           \

@@ -39,7 +39,8 @@ std::string first_bytes(int file) {
 
 } // namespace
 
-WriteLock::WriteLock(std::string path) : path_(std::move(path)) {
+WriteLock::WriteLock(std::string path, MadeFolders made)
+    : made_(std::move(made)), path_(std::move(path)) {
     const auto start = std::chrono::steady_clock::now();
     while (!try_once() && std::chrono::steady_clock::now() - start < patience)
         std::this_thread::sleep_for(pause);
@@ -55,9 +56,9 @@ WriteLock::~WriteLock() {
 bool WriteLock::is_lost() const { return file_ >= 0 && !leads_to(path_, file_); }
 
 WriteLock::WriteLock(WriteLock&& other) noexcept
-    : path_(std::move(other.path_)), holder_(std::move(other.holder_)),
-      problem_(std::move(other.problem_)), file_(std::exchange(other.file_, -1)),
-      folder_(std::move(other.folder_)) {}
+    : made_(std::move(other.made_)), path_(std::move(other.path_)),
+      holder_(std::move(other.holder_)), problem_(std::move(other.problem_)),
+      file_(std::exchange(other.file_, -1)), folder_(std::move(other.folder_)) {}
 
 /// Returns true if further waiting would be useless, or if the lock is held.
 bool WriteLock::try_once() {

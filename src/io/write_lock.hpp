@@ -11,15 +11,18 @@
 #include <string>
 
 #include "io/files.hpp"
+#include "io/made_folders.hpp"
 
 namespace carrom {
 
 class WriteLock {
 public:
     /// Takes the lock of `path`, on one rank. If another process keeps it for two seconds, `holder`
-    /// names that process; otherwise it is empty, also if there are no locks.
-    explicit WriteLock(std::string path);
-    /// Releases the lock, and removes the file unless the name now belongs to another file.
+    /// names that process; otherwise it is empty, also if there are no locks. `made` are the
+    /// folders that were made for the lock.
+    explicit WriteLock(std::string path, MadeFolders made = {});
+    /// Releases the lock, and removes the file unless the name now belongs to another file. Then
+    /// removes the folders that were made, if they are empty.
     ~WriteLock();
     WriteLock(WriteLock&& other) noexcept;
     WriteLock& operator=(WriteLock&&) = delete;
@@ -35,6 +38,7 @@ public:
 private:
     bool try_once();
 
+    MadeFolders made_; // the last member that ends
     std::string path_, holder_, problem_;
     int file_ = -1;                      ///< open while the lock is held
     std::unique_ptr<HeldFolder> folder_; ///< the folder of the lock, while it is held

@@ -153,10 +153,12 @@ Key species_key() {
     key.get = get_species;
     key.set = set_species;
     key.compare = [](const SceneParameters& a, const SceneParameters& b) {
-        const bool name_pairs = !a.effects.contact.pairs.empty() ||
-                                !b.effects.contact.pairs.empty();
+        const auto name_rows = [](const Effects& effects) {
+            return !effects.contact.pairs.empty() || effects.surface_contacts.is_on();
+        };
         return a.effects.species == b.effects.species && a.regions == b.regions &&
-               (!name_pairs || a.effects.contact.rows == b.effects.contact.rows);
+               ((!name_rows(a.effects) && !name_rows(b.effects)) ||
+                a.effects.contact.rows == b.effects.contact.rows);
     };
     return key;
 }

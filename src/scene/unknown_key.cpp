@@ -34,7 +34,7 @@ constexpr std::string_view folder_text =
     "it is no more: name 'output.folder', where all that a run writes has its place";
 constexpr std::string_view both_partners =
     "it is of pairs; try: effects.contact.restitution for all, and [[effects.contact.pairs]] with "
-    "species = [1, 2] for others";
+    "species = [1, 2] for others; walls have box.bottom.contacts";
 
 std::string_view table_of(std::string_view key) {
     const std::size_t dot = key.rfind('.');

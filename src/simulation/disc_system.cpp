@@ -183,8 +183,11 @@ void DiscSystem::advance_checked() {
     engine_->log_to(log_);
     engine_->add_work_to(nullptr);
     const LocalView now = engine_->local_view();
-    check_->inspect(now, micro_steps_done(), collisions, engine_->side_columns()[SideColumn::spin],
-                    work, engine_->energy_given());
+    const SideSpans columns = engine_->side_columns();
+    check_->inspect(
+        now, micro_steps_done(), collisions,
+        {columns[SideColumn::spin], columns[SideColumn::swapped_radius], engine_->departed()}, work,
+        engine_->energy_given());
     engine_->forget_images();
     if (log_) log_->insert(log_->end(), collisions.begin(), collisions.end());
 }

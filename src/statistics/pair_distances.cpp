@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "statistics/pair_distances.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -16,6 +18,56 @@ std::size_t species_of(DiscId id, std::span<const DiscId> species_ends) {
     while (id >= species_ends[k]) ++k;
     return k;
 }
+
+/// Gauss's rule with five points: 0, and these on either side, with their weights.
+constexpr double middle_weight = 128.0 / 225;
+constexpr std::array<std::array<double, 2>, 2> nodes = {
+    {{0.5384693101056831, 0.47862867049936647}, {0.9061798459386640, 0.23692688505618908}}};
+
+template <class What> double integral(double low, double high, int n_parts, const What& what) {
+    const double half = (high - low) / (2 * n_parts);
+    double sum = 0;
+    for (int k = 0; k < n_parts; ++k) {
+        const double middle = low + half * (2 * k + 1);
+        sum += middle_weight * what(middle);
+        for (const auto& [node, weight] : nodes)
+            sum += weight * (what(middle - half * node) + what(middle + half * node));
+    }
+    return half * sum;
+}
+
+/// A stadium along x about the origin, with x up to `straight` from there on its straight sides.
+struct Stadium {
+    double straight, radius;
+
+    double area() const { return (std::numbers::pi * radius + 4 * straight) * radius; }
+    /// Half of the chord along y.
+    double half_chord(double x) const {
+        const double beyond = std::max(std::fabs(x) - straight, 0.0);
+        return std::sqrt(std::max(radius * radius - beyond * beyond, 0.0));
+    }
+    /// The area that it has in common with a copy of itself at (p, q), both not negative. The
+    /// common part is symmetric about its middle, and left of that the copy has the shorter chords.
+    double common_area(double p, double q) const {
+        const auto chord = [&](double x, double half) { // x from the copy's centre
+            return std::clamp(half_chord(x + p) + half - q, 0.0, 2 * half);
+        };
+        constexpr int n_parts = 12;
+        const double end = std::max(p / 2 - straight, 0.0) / radius;
+        double area = end < 1
+                          ? integral(
+                                std::asin(end), std::numbers::pi / 2, n_parts,
+                                [&](double angle) {
+                                    const double half = radius * std::cos(angle);
+                                    return half * chord(-straight - radius * std::sin(angle), half);
+                                })
+                          : 0;
+        if (p / 2 < straight)
+            area += integral(-straight, -p / 2, n_parts,
+                             [&](double x) { return chord(x, radius); });
+        return 2 * area;
+    }
+};
 
 } // namespace
 
@@ -67,6 +119,25 @@ double share_of_ideal_pairs_around_x(double period, double b, double distance) {
 
 double share_of_ideal_pairs_around(double area, double distance) {
     return std::numbers::pi * distance * distance / area;
+}
+
+double share_of_ideal_pairs_in_circle(double radius, double distance) {
+    const double s = std::min(distance / (2 * radius), 1.0), root = std::sqrt(1 - s * s);
+    return 1 +
+           (2 * (4 * s * s - 1) * std::acos(s) - 2 * s * (1 + 2 * s * s) * root) / std::numbers::pi;
+}
+
+/// The points of a pair with the difference h are in the part that the stadium has in common with
+/// its copy at h. The four quadrants of h are alike.
+double share_of_ideal_pairs_in_stadium(double length, double radius, double inner, double outer) {
+    const Stadium stadium{length / 2, radius};
+    const double pairs = integral(inner, outer, 1, [&](double distance) {
+        return distance * integral(0, std::numbers::pi / 2, 6, [&](double angle) {
+                   return stadium.common_area(distance * std::cos(angle),
+                                              distance * std::sin(angle));
+               });
+    });
+    return 4 * pairs / (stadium.area() * stadium.area());
 }
 
 } // namespace carrom

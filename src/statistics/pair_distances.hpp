@@ -35,5 +35,11 @@ double share_of_ideal_pairs(double a, double b, double distance);
 double share_of_ideal_pairs_around_x(double period, double b, double distance);
 /// The share of such pairs in a box without walls, for nearest images.
 double share_of_ideal_pairs_around(double area, double distance);
+/// The share of pairs in a circle, up to its diameter (Hammersley, Ann. Math. Stat. 21, 447
+/// (1950)).
+double share_of_ideal_pairs_in_circle(double radius, double distance);
+/// The share of pairs that are from `inner` to `outer` apart in a stadium: two half circles, joined
+/// by straight sides of this length. For narrow bins; to a relative 1e-5.
+double share_of_ideal_pairs_in_stadium(double length, double radius, double inner, double outer);
 
 } // namespace carrom

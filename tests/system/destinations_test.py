@@ -150,6 +150,23 @@ class Destinations(ProgramTest):
                          says="--overwrite removes")
         self.assertEqual(self.files(), before)
 
+    def test_a_failed_start_leaves_no_folder(self):
+        """The folder and those above it go where the run has made them, and stay where they were,
+        or hold a file."""
+        crowded = self.write("crowded.toml", PLAIN.replace("packing = 0.2", "radius = 1\nlist = "
+                                                           "[[5, 5, 0, 0], [5.5, 5, 0, 0]]")
+                             .replace("count = 120", "count = 2"))
+        (self.folder / "there").mkdir()
+        for folder, stays in (("new", False), ("new/inner/", False), ("there", True),
+                              ("there/inner", True)):
+            for ranks in (1, 2):
+                self.run_program(ranks, "run", crowded, "-o", folder, "--quiet", code=2,
+                                 says="overlap")
+                self.assertEqual((self.folder / folder.split("/", maxsplit=1)[0]).exists(), stays)
+            self.assertEqual(list((self.folder / "there").iterdir()), [])
+        self.run_program(1, "run", "plain.toml", "-o", "new/inner", "--quiet")
+        self.assertTrue((self.folder / "new/inner/report.json").exists())
+
     def test_replicas_keep_tables_of_others(self):
         (self.folder / "mine").mkdir()
         self.write("mine/velocities.csv", "precious\n")

@@ -96,6 +96,11 @@ refuse() { # WHAT TOLD ARGUMENTS...
 refuse 'a missing file' 'nowhere.h5' next.toml --set discs.from=nowhere.h5
 refuse 'a missing frame' 'has no frame of step 7' next.toml \
     --set discs.from=first/trajectory.h5 --set discs.from_step=7
+refuse 'a folder of a run' "'discs.from' takes a checkpoint or a trajectory; try: discs.from = \
+\"first/checkpoints/checkpoint-000000000050.h5\"" next.toml --set discs.from=first
+mkdir nothing
+refuse 'another folder' "nothing: is a folder, and 'discs.from' takes a checkpoint" next.toml \
+    --set discs.from=nothing
 refuse 'a log' 'is a log of collisions' next.toml --set discs.from=first/collisions.h5
 refuse 'another number of discs' 'has 300 discs, and the scene is of 7' next.toml \
     --set discs.count=7

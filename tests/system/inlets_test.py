@@ -113,7 +113,8 @@ class Inlets(ProgramTest):
         self.assertAlmostEqual(went / came, 1, delta=0.1)
 
     def test_every_shape(self):
-        """The same bits on 1 to 5 ranks and over a restart, of species, spins and two inlets."""
+        """The same bits on 1 to 5 ranks, under the check and over a restart, of species, spins and
+        two inlets."""
         for method, more in (("event-driven", ""), ("event-driven", ROUGH), ("time-stepped", "")):
             with self.subTest(method):
                 scene = self.write("scene.toml", ELASTIC + more)
@@ -121,7 +122,7 @@ class Inlets(ProgramTest):
                 self.check_restart(scene, options, first=77, last=200)
                 for ranks in (1, 3, 5):
                     self.run_program(ranks, "run", scene, *options, "--threads", 1 + ranks // 3,
-                                     "-o", "other", "--report", "o.json")
+                                     "-o", "other", "--report", "o.json", "--check")
                     self.assertEqual(self.hash_of("o.json"), self.hash_of("whole.json"))
                 report, rest = self.report("whole.json"), self.report("rest.json")
                 self.assertGreater(report["inlet_discs"], 30)

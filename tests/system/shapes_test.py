@@ -5,7 +5,7 @@ the same bits on any shape of the machine, and what is refused.
 import csv
 import math
 
-from program import ProgramTest, main
+from program import ProgramTest, lines_of, main
 
 ROUND = """
 [box]
@@ -210,6 +210,64 @@ arcs = [[15, 5, 2, 180, 360]]
                 self.assertLess(abs(row["fx"]), 1e-9)
                 self.assertLess(abs(row["torque"]), 1e-9)
 
+    def test_points_are_anywhere(self):
+        """g of an ideal gas is 1 at all distances, in both shapes. Pairs scatter like Poisson's,
+        and samples are so far apart that they are new."""
+        for shape, size in ("round", 20), ("stadium", "[30, 16]"):
+            self.write("gas.toml", f"""
+[box]
+size = {size}
+shape = "{shape}"
+[discs]
+count = 400
+radius = 0.05
+speed = 1
+[time]
+method = "event-driven"
+steps = 1600
+[effects.contact]
+kind = "none"
+[output.measurements]
+quantities = ["radial_distribution"]
+every_steps = 40
+bins = 16
+largest_distance = 7
+""")
+            self.run_program(2, "run", "gas.toml", "-o", "run", "--overwrite")
+            table = self.table("radial_distribution")
+            self.assertEqual(len(table), 16)
+            for row in table:
+                self.assertLess(abs(row["g"] - 1), 4.5 / math.sqrt(row["pairs"]), (shape, row))
+
+    def test_pairs_are_those_of_all_samples(self):
+        """Pairs counted by hand, over those of points in the circle of centres (Hammersley's
+        distribution of their distances)."""
+        n, width, radius = 60, 0.5, 0.5
+        self.write("gas.toml", ROUND.format(discs=f"count = {n}\nradius = {radius}\nspeed = 0.2",
+                                            method="event-driven", effects=""))
+        run = self.run_program(2, "run", "gas.toml", "--steps", 60, "-o", "run", *(
+            word for one in ('output.measurements.quantities=["radial_distribution"]',
+                             "output.measurements.every_steps=20", "output.text=every_step",
+                             "output.measurements.bins=14",
+                             "output.measurements.largest_distance=7") for word in ("--set", one)))
+        counts = [0] * 14
+        for step in 0, 20, 40, 60:
+            places = [tuple(map(float, line.split()[2:4])) for line in lines_of(run.out, step)]
+            for k, p in enumerate(places):
+                for q in places[:k]:
+                    if math.dist(p, q) < 7:
+                        counts[int(math.dist(p, q) / width)] += 1
+
+        def share(distance):
+            s = distance / 19  # over the diameter of the circle of centres
+            return 1 + (2 * (4 * s * s - 1) * math.acos(s)
+                        - 2 * s * (1 + 2 * s * s) * math.sqrt(1 - s * s)) / math.pi
+        table = self.table("radial_distribution")
+        self.assertEqual([row["pairs"] for row in table], counts)
+        for k, row in enumerate(table):
+            ideal = 4 * n * (n - 1) / 2 * (share(width * (k + 1)) - share(width * k))
+            self.assertAlmostEqual(row["g"], counts[k] / ideal, delta=1e-6)
+
     def test_what_has_no_meaning_is_refused(self):
         discs = "count = 10\nradius = 0.5"
         whole = ROUND.format(discs=discs, method="event-driven", effects="")
@@ -224,6 +282,8 @@ arcs = [[15, 5, 2, 180, 360]]
                  "discs.generator=compressed"),
                 ("round.toml", "no lattice of 350 discs of radius 0.5 has room", "discs.count=350",
                  "discs.generator=lattice"),
+                ("round.toml", "\"obstacle_forces\" has the wall's pressure",
+                 'output.measurements.quantities=["wall_pressure"]'),
                 ("round.toml", "overlaps the round wall", "discs.list=[[1, 1, 0, 0]]",
                  "discs.count=1"),
                 ("points.toml", "two points never meet", "effects.contact.kind=elastic"),

@@ -174,10 +174,6 @@ void check_every_step(DiscSystem& system, const SceneParameters& scene) {
         throw InputError({{"--check", 0,
                            "it follows single collisions, which a GPU does not list; leave "
                            "machine.gpu or --check out"}});
-    if (scene.effects.have_open_boundaries())
-        throw InputError(
-            {{"--check", 0,
-              "it knows closed boxes only; leave sides of kind = \"open\" or --check out"}});
     system.check_every_step(scene);
 }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // "radial_distribution": g(r), from the distances of all pairs at each sample.
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "measure/kept_blocks.hpp"
@@ -31,7 +34,6 @@ public:
     bool moves_discs() const override { return true; }
 
     void sample(const SampledState& state) override {
-        const Extent& box = state.box;
         const std::size_t n = n_bins_of(run_);
         const double width = largest_distance_ / static_cast<double>(n);
         std::vector<std::uint64_t> pairs(pairs_.size(), 0);
@@ -43,31 +45,15 @@ public:
         std::vector<std::uint64_t> now(pairs.size(), 0);
         add_over(run_.ranks, std::move(pairs), now);
         std::vector<double> ideal_now(now.size(), 0);
-        const double a = box.x_high - box.x_low - 2 * run_.scene.radius,
-                     b = box.y_high - box.y_low - 2 * run_.scene.radius;
-        const bool goes_round_x = run_.scene.effects.is_periodic_x(),
-                   goes_round_y = run_.scene.effects.is_periodic_y();
-        const auto share = [&](double distance) {
-            if (goes_round_x && goes_round_y)
-                return share_of_ideal_pairs_around(run_.scene.box.area(), distance);
-            if (goes_round_x || goes_round_y)
-                return share_of_ideal_pairs_around_x(goes_round_x ? run_.scene.box.x
-                                                                  : run_.scene.box.y,
-                                                     goes_round_x ? b : a, distance);
-            return share_of_ideal_pairs(a, b, distance);
-        };
+        const std::vector<double>& shares = ideal_shares(state.box, n, width);
         for (std::size_t second = 0; second < species.size(); ++second) {
             for (std::size_t first = 0; first <= second; ++first) {
                 const auto n_first = static_cast<double>(species[first].count),
                            n_second = static_cast<double>(species[second].count);
                 const double all = first == second ? 0.5 * n_first * (n_first - 1)
                                                    : n_first * n_second;
-                for (std::size_t k = 0; k < n; ++k) {
-                    const double inner = static_cast<double>(k) * width,
-                                 outer = static_cast<double>(k + 1) * width;
-                    ideal_now[pair_kind(first, second) * n + k] = all *
-                                                                  (share(outer) - share(inner));
-                }
+                for (std::size_t k = 0; k < n; ++k)
+                    ideal_now[pair_kind(first, second) * n + k] = all * shares[k];
             }
         }
         for (std::size_t k = 0; k < now.size(); ++k) {
@@ -115,6 +101,41 @@ public:
     }
 
 private:
+    /// The shares of independent pairs in each bin; the same as before unless walls move.
+    const std::vector<double>& ideal_shares(const Extent& box, std::size_t n, double width) {
+        const Box size = box.size();
+        if (shares_.size() == n && size == box_of_shares_) return shares_;
+        shares_.clear();
+        box_of_shares_ = size;
+        for (std::size_t k = 0; k < n; ++k)
+            shares_.push_back(ideal_share(size, static_cast<double>(k) * width,
+                                          static_cast<double>(k + 1) * width));
+        return shares_;
+    }
+    /// The share of independent pairs from `inner` to `outer` apart, in the part of the box that
+    /// centres have.
+    double ideal_share(const Box& box, double inner, double outer) const {
+        const double a = box.x - 2 * run_.scene.radius, b = box.y - 2 * run_.scene.radius;
+        const bool goes_round_x = run_.scene.effects.is_periodic_x(),
+                   goes_round_y = run_.scene.effects.is_periodic_y();
+        const BoxShape shape = run_.scene.effects.fixed_bodies.shape;
+        if (shape == BoxShape::stadium)
+            return share_of_ideal_pairs_in_stadium(std::fabs(a - b), std::min(a, b) / 2, inner,
+                                                   outer);
+        const auto share = [&](double distance) {
+            if (shape == BoxShape::round)
+                return share_of_ideal_pairs_in_circle(std::min(a, b) / 2, distance);
+            if (goes_round_x && goes_round_y)
+                return share_of_ideal_pairs_around(run_.scene.box.area(), distance);
+            if (goes_round_x || goes_round_y)
+                return share_of_ideal_pairs_around_x(goes_round_x ? run_.scene.box.x
+                                                                  : run_.scene.box.y,
+                                                     goes_round_x ? b : a, distance);
+            return share_of_ideal_pairs(a, b, distance);
+        };
+        return share(outer) - share(inner);
+    }
+
     /// If there are several kinds of pairs, the curve of all pairs comes first.
     static std::size_t n_curves(const SceneParameters& scene) {
         const std::size_t n_kinds = n_pair_kinds(species_apart(scene).size());
@@ -142,6 +163,8 @@ private:
     }
 
     double largest_distance_;
+    std::vector<double> shares_;
+    Box box_of_shares_;
     /// For each kind of pair (pair_distances.hpp) its bins, one kind after the other
     std::vector<std::uint64_t> pairs_;
     std::vector<double> ideal_pairs_; ///< expected pairs of discs without size

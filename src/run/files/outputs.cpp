@@ -61,8 +61,8 @@ std::string problem_in_folder(const RunOptions& options, const SceneParameters& 
     return fmt::format("has {} of another run ({}); name another folder", trace, difference);
 }
 
-WriteLock locked(const std::string& folder, PlaceProblems& found) {
-    WriteLock lock(fmt::format("{}/{}", folder, lock_of_run));
+WriteLock locked(const std::string& folder, MadeFolders made, PlaceProblems& found) {
+    WriteLock lock(fmt::format("{}/{}", folder, lock_of_run), std::move(made));
     found.note(folder_key, folder, {lock.problem()});
     if (!lock.holder().empty())
         found.note(folder_key, folder,
@@ -92,10 +92,11 @@ void check_places(PlaceProblems& found, const RunOptions& options, const ScenePa
                        {"is of the run that --overwrite removes; copy it to another folder first"});
     std::error_code ignored;
     const bool may_try = (locks && found.all().empty()) || std::filesystem::exists(folder, ignored);
+    MadeFolders made = may_try ? MadeFolders(folder) : MadeFolders();
     found.note(folder_key, folder,
                may_try ? write_problem_of_folder(folder) : write_problem_of_new_folder(folder));
     if (!found.all().empty()) return;
-    if (locks) locks->push_back(locked(folder, found));
+    if (locks) locks->push_back(locked(folder, std::move(made), found));
     if (found.all().empty()) found.note(folder_key, folder, {problem_in_folder(options, scene)});
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run/start/scene_source.hpp"
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -9,8 +10,11 @@
 
 #include "initial_state/scene_input.hpp"
 #include "io/checkpoint.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "io/files.hpp"
 #include "parallel/agreement.hpp"
 #include "parallel/slabs.hpp"
+#include "run/files/run_folder.hpp"
 #include "scene/disc_columns.hpp"
 #include "scene/disc_file.hpp"
 #include "scene/disc_reader.hpp"
@@ -83,11 +87,31 @@ std::string note_on_radius(const SceneParameters& scene, const FromFile& from) {
                        from.radius, remedy);
 }
 
+/// A folder is an easy mistake, so the error names the file that is probably meant. **Collective.**
+void refuse_folder(const SceneParameters& scene, const std::string& path,
+                   const Communicator& ranks) {
+    namespace fs = std::filesystem;
+    on_root(ranks, path, ExitCode::bad_input, [&] {
+        std::error_code ignored;
+        if (!fs::is_directory(path, ignored)) return;
+        std::vector<FoundFile> found = find_checkpoints(checkpoints_of_run(path));
+        if (found.empty()) found = find_checkpoints(path);
+        std::string text = "is a folder, and 'discs.from' takes a checkpoint or a trajectory";
+        if (!found.empty())
+            text += fmt::format(
+                "; try: discs.from = \"{}\"",
+                (fs::path(scene.discs_from) / fs::path(found.front().path).lexically_relative(path))
+                    .string());
+        throw FileError(text);
+    });
+}
+
 /// Replaces the lines after the scene's text by the discs of `discs.from`: by all of them on rank
 /// 0, by the discs of their shares on others. **Collective.**
 FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<std::istream>& stream,
                                 Problems& of_root, const Communicator& ranks) {
     const std::string path = discs_path(scene);
+    refuse_folder(scene, path, ranks);
     check_damage(path, ranks);
     SideColumnSet wanted = side_columns_of(scene.effects);
     for (const SideColumn column : all_side_columns)

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "dynamics/surface_table.hpp"
 #include "scene/key_members.hpp"
 #include "scene/limits.hpp"
 
@@ -82,9 +83,11 @@ CheckAllowance allowance_of_boundaries(const Effects& effects) {
 }
 
 bool do_sides_take_growing_discs(const Effects& effects) {
-    return std::ranges::all_of(effects.boundaries, [](const Boundary& side) {
-        return declaration_of(side.kind).takes_growing_discs && !side.surface.rubs();
-    });
+    for (std::size_t side = 0; side < effects.boundaries.size(); ++side)
+        if (!declaration_of(effects.boundaries[side].kind).takes_growing_discs ||
+            does_rub(effects, side))
+            return false;
+    return true;
 }
 
 bool are_walls_at_rest(const Effects& effects) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/contact_rows.hpp"
 #include "scene/disc_columns.hpp"
 #include "scene/effects/effect.hpp"
 #include "scene/key_members.hpp"
@@ -35,10 +36,12 @@ constexpr std::size_t most_rows = 100; ///< a table has the square of this numbe
 
 /// Numbers of a row of `effects.contact.pairs`.
 namespace pair_row {
-constexpr std::size_t first = 0, second = 1, restitution = 2, tangential = 3, friction = 4;
+constexpr std::size_t first = 0, second = 1, restitution = 2;
 } // namespace pair_row
 
 Key key_of_pairs() {
+    std::vector<Field> fields = {{"species", "[i, j]", 2, 2}};
+    for (const Field& one : contact_fields()) fields.push_back(one);
     Key pairs = key("effects.contact.pairs", "1, 1, 1, 1",
                     "Other numbers for contacts between discs of two rows of 'discs.species', "
                     "counted from 1; the order of the two does not matter. Numbers that a row "
@@ -46,10 +49,7 @@ Key key_of_pairs() {
                     [](auto& s) -> auto& { return s.effects.contact.pairs; })
                     .by_default("none")
                     .needs(rows_of_lossy_discs)
-                    .with_rows({{"species", "[i, j]", 2, 2},
-                                {"restitution", "", 1, 1, not_given},
-                                {"tangential_restitution", "", 1, 1, not_given},
-                                {"friction", "", 1, 1, not_given}});
+                    .with_rows(fields);
     pairs.compare = [](const SceneParameters& a, const SceneParameters& b) {
         return a.effects.contact.pairs == b.effects.contact.pairs;
     };
@@ -121,46 +121,24 @@ std::vector<Rule> rules_of_contacts() {
 
 std::string problem_of_pair(const Numbers& row, std::size_t n_rows, bool are_rough) {
     for (const std::size_t place : {pair_row::first, pair_row::second})
-        if (!(row[place] >= 1 && row[place] <= static_cast<double>(n_rows) &&
-              row[place] == std::floor(row[place])))
+        if (!is_species_row(row[place], n_rows))
             return fmt::format("its species must be rows of 'discs.species', from 1 to {}, not {}",
                                n_rows, row[place]);
-    struct Limit {
-        const char* name;
-        std::size_t place;
-        double low, high;
-    };
-    bool is_on = false;
-    for (const Limit& one : {Limit{"restitution", pair_row::restitution, 0, 1},
-                             Limit{"tangential_restitution", pair_row::tangential, -1, 1},
-                             Limit{"friction", pair_row::friction, 0, 1e6}}) {
-        if (!is_given(row, one.place)) continue;
-        is_on = true;
-        if (!are_rough && one.place != pair_row::restitution)
-            return fmt::format("{} has no meaning without effects.contact.kind = \"rough\"",
-                               one.name);
-        if (!(row[one.place] >= one.low && row[one.place] <= one.high))
-            return fmt::format("its {} must be from {} to {}, not {}", one.name, one.low, one.high,
-                               row[one.place]);
-    }
-    return is_on ? ""
-                 : "it gives no number; it takes restitution, and friction and "
-                   "tangential_restitution of rough discs";
+    return problem_of_contact_numbers(row, pair_row::restitution,
+                                      are_rough ? "" : "effects.contact.kind = \"rough\"");
 }
 
 void check_pairs(const SceneDraft& draft) {
-    const Setting* species = draft.settings.find("discs.species");
-    if (!species || !draft.settings.has("effects.contact.pairs")) return;
-    const auto* rows = std::get_if<Values>(&species->value.data);
-    if (!rows) return; // reported already
-    if (rows->size() > most_rows)
+    const std::optional<std::size_t> n_rows = count_species_rows(draft);
+    if (!n_rows || !draft.settings.has("effects.contact.pairs")) return;
+    if (*n_rows > most_rows)
         return draft.refuse({"effects.contact.pairs"},
                             fmt::format("'effects.contact.pairs' takes {} rows of 'discs.species' "
                                         "at most, and there are {}",
-                                        most_rows, rows->size()));
+                                        most_rows, *n_rows));
     std::map<std::pair<double, double>, std::size_t> known;
     draft.refuse_rows("effects.contact.pairs", [&](const Numbers& row, std::size_t k) {
-        const std::string text = problem_of_pair(row, rows->size(), is_rough(draft.scene));
+        const std::string text = problem_of_pair(row, *n_rows, is_rough(draft.scene));
         if (!text.empty()) return text;
         const auto [found, is_new] = known.emplace(
             std::minmax(row[pair_row::first], row[pair_row::second]), k + 1);

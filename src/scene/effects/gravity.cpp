@@ -8,6 +8,7 @@
 
 #include "dynamics/drag.hpp"
 #include "dynamics/falling_frame.hpp"
+#include "dynamics/surface_table.hpp"
 #include "scene/effects/effect.hpp"
 #include "scene/key_members.hpp"
 #include "scene/rule_parts.hpp"
@@ -52,6 +53,17 @@ std::vector<Key> keys_of_gravity() {
     };
 }
 
+/// Whether contacts with a surface take energy from discs of any species.
+bool does_take_energy(const Effects& e, std::size_t surface) {
+    const auto takes = [](const SurfaceNumbers& numbers) {
+        return numbers.is_lossy() || std::fabs(numbers.surface.tangential_restitution) < 1;
+    };
+    return takes(common_numbers(e, surface)) ||
+           std::ranges::any_of(e.surface_contacts.rows[surface], [&](const SurfaceContact& row) {
+               return takes(numbers_of(e, surface, row));
+           });
+}
+
 /// Whether discs that gravity drives along periodic sides reach a steady flow. For that something
 /// must take the momentum along the sides `low` and `low + 1`, and something the energy. Obstacles
 /// take momentum, because discs collide with them.
@@ -59,18 +71,15 @@ bool are_stopped(const SceneParameters& s, std::size_t low) {
     const Effects& e = s.effects;
     const ThermostatKind kind = e.thermostat.kind;
     if (e.drag != 0 || e.thermostat.is_bath()) return true;
-    const Boundary *const first = &e.boundaries[low], *const last = first + 2;
-    const auto any = [&](const auto& what) { return std::any_of(first, last, what); };
+    const auto any = [&](const auto& what) { return what(low) || what(low + 1); };
     const bool are_thermal = any(
-        [](const Boundary& side) { return side.kind == BoundaryKind::thermal; });
-    const auto takes_energy = [](const auto& body) {
-        return body.restitution < 1 || std::fabs(body.surface.tangential_restitution) < 1;
-    };
+        [&](std::size_t side) { return e.boundaries[side].kind == BoundaryKind::thermal; });
+    const auto takes_energy = [&](std::size_t surface) { return does_take_energy(e, surface); };
     const bool is_energy_taken = are_pairs_lossy(e) || kind == ThermostatKind::rescale ||
                                  any(takes_energy) ||
-                                 (has_fixed_bodies(s) && takes_energy(e.fixed_bodies));
+                                 (has_fixed_bodies(s) && takes_energy(SurfaceContacts::obstacles));
     const bool is_momentum_taken = has_fixed_bodies(s) ||
-                                   any([](const Boundary& side) { return side.surface.rubs(); });
+                                   any([&](std::size_t side) { return does_rub(e, side); });
     return are_thermal || (is_energy_taken && is_momentum_taken);
 }
 
@@ -211,8 +220,9 @@ std::string summary_of_gravity(const Effects& effects) {
 
 /// Surfaces that rub have forces along them that are not known beforehand.
 bool do_surfaces_rub(const Effects& effects) {
-    return std::ranges::any_of(effects.boundaries,
-                               [](const Boundary& side) { return side.surface.rubs(); });
+    for (std::size_t side = 0; side < effects.boundaries.size(); ++side)
+        if (does_rub(effects, side)) return true;
+    return false;
 }
 
 } // namespace

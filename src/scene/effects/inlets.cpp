@@ -243,8 +243,6 @@ EffectDeclaration inlets() {
             .derive = sync_in_each_step_of_inlets,
             .check_room = check_inlets,
             .summary = summary_of_inlets,
-            .allowance =
-                [](const Effects& e) { return CheckAllowance{.acts_at_syncs = has_inlets(e)}; },
             .usual_speed = usual_speed_of_inlets,
             .at_syncs = [](const SceneParameters& s) -> std::unique_ptr<SyncEffect> {
                 if (!has_inlets(s.effects)) return nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fixed bodies in the box (dynamics/obstacles.hpp), and boxes that are not rectangles
+// Fixed bodies in the box (dynamics/fixed_bodies.hpp), and boxes that are not rectangles
 // (dynamics/container.hpp).
 #include <cmath>
 
@@ -117,13 +117,13 @@ std::vector<Rule> rules_of_obstacles() {
              [](const SceneParameters& s) {
                  return s.effects.fixed_bodies.has_shape() && !s.effects.have_plain_boundaries();
              }),
-        rule("box.shape = \"round\" or \"stadium\"",
-             "\"radial_distribution\", \"wall_pressure\" or \"wall_exchange\"",
-             "these quantities need a rectangle and its sides", {"box.shape"},
+        rule("box.shape = \"round\" or \"stadium\"", "\"wall_pressure\" or \"wall_exchange\"",
+             "discs never meet the sides there; \"obstacle_forces\" has the wall's pressure, force "
+             "and torque",
+             {"box.shape"},
              [](const SceneParameters& s) {
                  return s.effects.fixed_bodies.has_shape() && s.measurements &&
-                        (s.measurements->measures("radial_distribution") ||
-                         s.measurements->measures("wall_pressure") ||
+                        (s.measurements->measures("wall_pressure") ||
                          s.measurements->measures("wall_exchange"));
              }),
         rule("obstacles", "discs.generator = \"triangular\", \"compressed\" or \"legacy\"",

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/surface_table.hpp"
 #include "scene/boundaries/boundary.hpp"
 #include "scene/effects/effect.hpp"
 #include "scene/key_members.hpp"
@@ -14,8 +15,8 @@ namespace carrom {
 
 namespace {
 
-bool slides(const Boundary& side) {
-    return side.kind == BoundaryKind::thermal || side.surface.rubs();
+bool slides(const Effects& effects, std::size_t side) {
+    return effects.boundaries[side].kind == BoundaryKind::thermal || does_rub(effects, side);
 }
 
 template <class SurfaceOf>
@@ -52,7 +53,7 @@ std::vector<Key> keys_of_rubbing() {
                  return s.effects.boundaries[side].surface.tangential_restitution != -1;
              }},
             {"without " + table + ".kind = \"thermal\" or a tangential_restitution above -1",
-             [side](const SceneParameters& s) { return slides(s.effects.boundaries[side]); }},
+             [side](const SceneParameters& s) { return slides(s.effects, side); }},
             side < 2 ? "Velocity of the surface along +y; the side stays where it is."
                      : "Velocity of the surface along +x; the side stays where it is.");
     }
@@ -64,7 +65,7 @@ std::vector<Key> keys_of_rubbing() {
              return s.effects.fixed_bodies.surface.tangential_restitution != -1;
          }},
         {"without effects.obstacles.tangential_restitution above -1",
-         [](const SceneParameters& s) { return s.effects.fixed_bodies.surface.rubs(); }},
+         [](const SceneParameters& s) { return does_rub(s.effects, SurfaceContacts::obstacles); }},
         "Velocity of the surface, counterclockwise around the body, which stays where it is. Arcs "
         "and the wall of a 'box.shape' turn around their centre.");
     return all;
@@ -124,9 +125,9 @@ CommonMotion common_motion_by_surfaces(const Effects& effects, Axis axis) {
     const std::size_t low = axis == Axis::x ? 2 : 0;
     CommonMotion motion;
     for (std::size_t side = low; side < low + 2; ++side) {
-        const Boundary& one = effects.boundaries[side];
-        motion.is_stopped |= slides(one);
-        motion.is_driven |= slides(one) && one.surface.velocity != 0;
+        const bool acts = slides(effects, side);
+        motion.is_stopped |= acts;
+        motion.is_driven |= acts && effects.boundaries[side].surface.velocity != 0;
     }
     motion.is_driven |= effects.fixed_bodies.are_any() &&
                         effects.fixed_bodies.surface.velocity != 0;

@@ -147,6 +147,7 @@ public:
         local_view = copy_of(engine_->local_view());
         const std::span<const double> now = engine_->side_columns()[SideColumn::spin];
         spins.assign(now.begin(), now.end());
+        departed.assign(engine_->departed().begin(), engine_->departed().end());
     }
 
     /// This rank's own disc of that id, or null.
@@ -188,7 +189,8 @@ public:
     std::optional<CheckFailure> inspect() {
         std::optional<CheckFailure> met;
         try {
-            check_.inspect(local_view.view(), engine_->micro_steps_done(), log, spins);
+            check_.inspect(local_view.view(), engine_->micro_steps_done(), log,
+                           {spins, swapped_radii, departed});
         } catch (const CheckFailure& failure) {
             met = failure;
         }
@@ -199,7 +201,9 @@ public:
     }
 
     LocalDiscs local_view;
-    std::vector<double> spins; ///< spins along the own discs, if these are rough
+    std::vector<double> spins;         ///< spins along the own discs, if these are rough
+    std::vector<double> swapped_radii; ///< radii along them; empty if radii do not change
+    std::vector<DiscState> departed;
     std::vector<Collision> log;
 
 private:

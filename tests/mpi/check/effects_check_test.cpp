@@ -114,3 +114,63 @@ TEST_CASE("check: a disc beyond an oscillating wall is found where the wall is")
     CHECK(found_in(shaken, beside_wall(0.2)) == Invariant::in_box);
     CHECK(found_in(shaken, beside_wall(0.4)) != Invariant::in_box);
 }
+
+namespace {
+
+/// A gas whose left side is open.
+Effects open_at_left() {
+    Effects effects;
+    effects.boundaries[0] = {BoundaryKind::open, 1, 0, 0};
+    return effects;
+}
+
+/// Takes a disc out of the own ones, as if it had departed at x.
+void let_out(OneStep& step, DiscId id, double x) {
+    LocalDiscs& now = step.local_view;
+    for (std::size_t i = 0; i < now.n_own; ++i) {
+        if (now.discs[i].id != id) continue;
+        DiscState disc = now.discs[i];
+        disc.x = x;
+        disc.depart();
+        step.departed.push_back(disc);
+        now.discs.erase(now.discs.begin() + static_cast<std::ptrdiff_t>(i));
+        --now.n_own;
+        break;
+    }
+    step.sort_into_cells();
+}
+
+} // namespace
+
+TEST_CASE("check: discs may leave by an open side, and in no other way") {
+    const Effects open = open_at_left();
+    CHECK(!found_in(open, [](OneStep&) {}));
+    // The log has no departure of it.
+    CHECK(found_in(open, [](OneStep& step) {
+              let_out(step, step.free_disc(), -step.scene().radius);
+          }) == Invariant::departed);
+    // Its departure is in the log, and its place is not.
+    const auto depart_at = [](double radii_outside) {
+        return [=](OneStep& step) {
+            const DiscId id = step.free_disc();
+            const bool is_mine = step.own(id) != nullptr;
+            if (is_mine) step.log.push_back({0, 0.5, 0, id, Collision::wall, 0});
+            if (is_mine) step.own(id)->wall_collisions += 1;
+            let_out(step, id, -radii_outside * step.scene().radius);
+        };
+    };
+    CHECK(!found_in(open, depart_at(1)));
+    CHECK(found_in(open, depart_at(1.001)) == Invariant::departed);
+}
+
+TEST_CASE("check: the radius in the column is the one that a disc collides with") {
+    const auto with_radii = [](double factor) {
+        return [=](OneStep& step) {
+            step.swapped_radii.assign(step.local_view.n_own, step.scene().radius);
+            for (std::size_t i = 0; i < step.local_view.n_own; ++i)
+                if (step.local_view.discs[i].id == 7) step.swapped_radii[i] *= factor;
+        };
+    };
+    CHECK(!found_in({}, with_radii(1)));
+    CHECK(found_in({}, with_radii(1 - 0x1p-52)) == Invariant::radius);
+}

@@ -29,8 +29,14 @@ for method in time-stepped event-driven; do
     expect_code 0 "the neighbourhood again under $method"
     [ "$(json_value report.json pair_collisions)" = 1 ] ||
         complain "the contact is missed again under $method"
-    [ $method = time-stepped ] || grep -qx '4 31 15 4 0 1 2.5 0.625' check_step_2_disc_5.discs ||
-        complain 'no radius, mass and spin of disc 5'
+    [ $method = time-stepped ] || grep -qx '4 31 15 4 0 0.625' check_step_2_disc_5.discs ||
+        complain 'no spin of disc 5'
+    # Discs 5 and 9 are of rows 1 and 2 there, and of rows 5 and 8 here.
+    for line in '{species = [5, 8], restitution = 0.75, tangential_restitution = 0.125, fric' \
+        '{species = 8, restitution = 0.25, tangential_restitution = -1, friction = 0},'; do
+        [ $method = time-stepped ] || grep -qF "$line" check_step_2_disc_5.toml ||
+            complain "no '$line' in the scene of the neighbourhood"
+    done
     for line in 'seed = 77' 'contact_time = 0.002' 'friction = 0.25'; do
         [ $method = time-stepped ] || grep -qx "$line" check_step_2_disc_5.toml ||
             complain "no '$line' in the scene of the neighbourhood"

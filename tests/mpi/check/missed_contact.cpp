@@ -49,6 +49,9 @@ int main(int argc, char** argv) {
         if (scene.method == Method::event_driven) {
             scene.effects.species = {{9, 1, 2.5}, {21, 1, 0.5}};
             scene.effects.contact = {ContactKind::rough, 0.9, 0.002, 0.5, 0.25, 0.5};
+            scene.effects.contact.rows = {{9, 0}, {30, 1}};
+            scene.effects.contact.pairs = {{1, 2, 0.75, 0.125, 0.375}, {1, 1, 0.5, 0.5, 0.5}};
+            scene.effects.surface_contacts.rows[1] = {{2, 0.25, -1, 0}};
             scene.effects.boundaries[3] = {BoundaryKind::thermal, 1, 2, 0};
             scene.effects.thermal_seed = 77;
         }
@@ -70,7 +73,7 @@ int main(int argc, char** argv) {
         try {
             for (const std::int64_t step : {1, 2}) {
                 const LocalDiscs now = at(static_cast<double>(step));
-                check.inspect(now.view(), step, {}, spins_of(now));
+                check.inspect(now.view(), step, {}, {spins_of(now)});
             }
         } catch (const CheckFailure& failure) {
             throw reported(failure, scene, world);

@@ -48,7 +48,7 @@ std::string failure_with(const TestScene& test, Method method, double factor,
         engine->advance_towards(step);
         const LocalView now = engine->local_view();
         try {
-            check.inspect(now, engine->micro_steps_done(), log, spins(), factor * work);
+            check.inspect(now, engine->micro_steps_done(), log, {spins()}, factor * work);
         } catch (const CheckFailure& failure) {
             return failure.what();
         }

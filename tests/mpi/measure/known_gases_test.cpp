@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measured tables compared with known results for gases.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "catch.hpp"
@@ -45,6 +48,51 @@ TEST_CASE("measurements: the share of ideal pairs is the integral of their diffe
         }
         CHECK(share_of_ideal_pairs(a, b, r) == Approx(sum).epsilon(1e-4));
     }
+}
+
+// Points by rejection; the distance is below r for a share of pairs, with a binomial scatter.
+TEST_CASE("measurements: the shares of ideal pairs in round boxes are those of points there") {
+    constexpr double length = 3, radius = 2;
+    std::mt19937_64 random(20260);
+    std::uniform_real_distribution<double> along(-length / 2 - radius, length / 2 + radius),
+        across(-radius, radius);
+    const auto point = [&](double straight) {
+        for (;;) {
+            const double x = along(random), y = across(random),
+                         beyond = std::max(std::fabs(x) - straight, 0.0);
+            if (beyond * beyond + y * y <= radius * radius) return std::array{x, y};
+        }
+    };
+    constexpr int n = 400000;
+    for (const double straight : {0.0, length / 2}) {
+        std::vector<double> counts(8, 0);
+        for (int k = 0; k < n; ++k) {
+            const auto p = point(straight), q = point(straight);
+            const double bin = std::hypot(p[0] - q[0], p[1] - q[1]) / 0.25;
+            if (bin < 8) ++counts[static_cast<std::size_t>(bin)];
+        }
+        for (std::size_t k = 0; k < counts.size(); ++k) {
+            const double inner = 0.25 * static_cast<double>(k), outer = inner + 0.25;
+            const double share = straight > 0 ? share_of_ideal_pairs_in_stadium(
+                                                    2 * straight, radius, inner, outer)
+                                              : share_of_ideal_pairs_in_circle(radius, outer) -
+                                                    share_of_ideal_pairs_in_circle(radius, inner);
+            CHECK(std::fabs(counts[k] - n * share) < 4.5 * std::sqrt(n * share));
+        }
+    }
+}
+
+TEST_CASE("measurements: a stadium without straight sides is a circle, and all pairs are one") {
+    double sum = 0;
+    for (double inner = 0; inner < 4; inner += 0.125) {
+        const double share = share_of_ideal_pairs_in_stadium(0, 2, inner, inner + 0.125);
+        CHECK(share == Approx(share_of_ideal_pairs_in_circle(2, inner + 0.125) -
+                              share_of_ideal_pairs_in_circle(2, inner))
+                           .epsilon(1e-5));
+        sum += share_of_ideal_pairs_in_stadium(2, 1, inner, inner + 0.125);
+    }
+    CHECK(sum == Approx(1).epsilon(1e-5));
+    CHECK(share_of_ideal_pairs_in_circle(2, 4) == 1);
 }
 
 TEST_CASE("measurements: discs that do not meet are anywhere: g is 1") {
