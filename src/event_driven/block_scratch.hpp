@@ -178,6 +178,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void predict_image(std::uint32_t a, std::uint32_t b, const Image& image);
     void push(double time, std::uint32_t a, std::uint32_t b, const Image* image = nullptr);
     void report(std::span<std::uint64_t> histories);
+    void report_by_cells(std::span<std::uint64_t> histories, double& end_squared);
     void report_hits();
     void report_hit(std::uint32_t slot, std::size_t place);
     void report_disc(std::uint32_t slot, std::span<std::uint64_t> histories, std::size_t& next,

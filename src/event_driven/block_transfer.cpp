@@ -259,13 +259,28 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::end_part() {
     begin_part();
 }
 
-/// Writes the new states of the block's own discs and the histories of the ring to the outcome. Own
-/// discs are written in the order of cells, in which the rank's discs lie.
+/// Writes the new states of the block's own discs and the histories of the ring to the outcome.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->too_fast = too_fast;
     outcome->largest_speed = std::sqrt(largest_squared) * (1 + 0x1p-50);
     double end_squared = 0;
+    if (ground.is_alone) {
+        for (std::uint32_t slot = 0; slot < indices.size(); ++slot)
+            if (is_own[slot] != 0)
+                end_squared = std::max(end_squared,
+                                       dynamics.squared_speed_at(discs[slot], ground.window.end));
+        report_hits();
+    } else {
+        report_by_cells(histories, end_squared);
+    }
+    outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
+}
+
+/// Own discs are written in the order of cells, in which the rank's discs lie.
+template <class Dynamics>
+void BlockRun<Dynamics>::Scratch::report_by_cells(std::span<std::uint64_t> histories,
+                                                  double& end_squared) {
     std::size_t next = make_room_for_hits();
     if constexpr (has_sizes) {
         for (std::uint32_t slot = 0; slot < indices.size(); ++slot)
@@ -280,7 +295,6 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     }
     ensure(next == outcome->hit.size(), "a block's own discs lie in its own cells or next to them");
     end_part();
-    outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
 }
 
 /// A window is exact if no disc is ever further from its initial place than the speed bound allows
