@@ -74,8 +74,7 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
     largest_speed_ = std::sqrt(squared_speed_of_own(time_));
 }
 
-/// Micro-steps between two additions of flights to the sums of stress. Flights are added at every
-/// sync if syncs change velocities, if images move, or if discs move in their own frame.
+/// Micro-steps between two additions of flights to the sums of stress.
 template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() const {
     const bool sync_changes_velocities = Dynamics::has_moving_images || dynamics_.has_own_frame() ||
                                          sync_action_.has_effects();
