@@ -9,10 +9,12 @@ namespace {
 
 /// The number of collisions of ten discs, `apart` micro-steps from each other, until the watch ends
 /// them; at most ten million.
-std::uint64_t collisions_until_end(double apart) {
+std::uint64_t collisions_until_end(double apart, bool are_with_walls = false) {
     CascadeWatch watch;
     std::uint64_t n = 0;
-    while (n < 10000000 && !watch.add(static_cast<double>(n) * apart, 0x1p-40, 10)) ++n;
+    while (n < 10000000 &&
+           !watch.add(static_cast<double>(n) * apart, 0x1p-40, 10, are_with_walls))
+        ++n;
     return n;
 }
 
@@ -25,4 +27,7 @@ TEST_CASE("collisions at one time, or without end in a slot, are seen, and frequ
     // A million collisions in a micro-step take a second, and end.
     CHECK(collisions_until_end(1e-6) == 10000000);
     CHECK(collisions_until_end(1e-11) == 10000000);
+    // In a wedge whose surfaces drive a disc all collisions are with walls.
+    CHECK(collisions_until_end(2e-13, true) == 220000);
+    CHECK(collisions_until_end(1e-9, true) == 10000000);
 }
