@@ -234,7 +234,7 @@ private:
     }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(geometry_.n_rows); }
 
-    // `Places` gives the places of discs: those of their states, or of their images.
+    // `Places` computes a disc's position: the stored one, or the one of its image in the box.
     void sort(std::span<DiscState> own, int n_threads, const Companions& companions);
     template <class Places>
     void sort(const Places& places, std::span<DiscState> own, int n_threads,

@@ -19,8 +19,8 @@ inline void prefetch(const DiscState& disc) {
 }
 
 /// Gives each thread a share of the discs, and the cells from where its discs begin to where the
-/// next share's discs begin. A single disc may have gone far, so the cell in the middle of five
-/// counts.
+/// next share's discs begin. A share begins in the median cell of its first five discs, because a
+/// single disc may have gone far.
 template <class CellOf>
 void DiscSorter::share_out(std::span<const DiscState> discs, const CellOf& find_cell,
                            std::uint32_t n_cells) {

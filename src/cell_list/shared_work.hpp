@@ -29,7 +29,7 @@ public:
     }
 
     /// Calls work(item) for items of thread `thread`, and then of others, until none
-    /// is left. All threads call it at once.
+    /// is left. All threads call it at the same time.
     template <class Work> void run(int thread, const Work& work) {
         for (std::size_t k = 0; k < n_shares_; ++k) {
             const std::size_t share = (static_cast<std::size_t>(thread) + k) % n_shares_;

@@ -172,7 +172,7 @@ private:
     /// Motion by an acceleration that changes in time, since the last inspection
     std::array<Swayed, 2> swayed_{};
     double total_mass_ = 0, smallest_mass_ = 1;
-    /// Of walls that swing: the largest speed, and the largest acceleration towards a disc
+    /// Largest speed of oscillating walls, and their largest acceleration towards a disc
     double wall_speed_ = 0, wall_pull_ = 0;
     double work_of_images_ = 0; ///< work on this rank since the last inspection
     /// Largest speed along y of the discs between sheared sides, now or at the last inspection

@@ -114,7 +114,7 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
     const double energy = energy_of(own, sways);
     double expected = energy_, scale = energy_, allowed = bound * energy_;
     if (scene_.effects.are_any()) {
-        double gain = 0; // rounding does not matter, because few discs add to it
+        double gain = 0; // a plain sum is accurate enough, because few discs add to it
         for (const Known& known : known_) gain += resting_gain(known);
         const double k = static_cast<double>(scene_.micro_steps);
         expected = energy_ * energy_left();
@@ -184,8 +184,8 @@ double StateCheck::work_of(const Collision& collision) const {
                              radii);
 }
 
-/// Updates bounds of speeds if effects make discs faster, and the motion of the frame by falling
-/// that changes. **Collective.**
+/// Updates the bounds of speeds if effects make discs faster, and the motion of the falling frame
+/// under an acceleration that changes. **Collective.**
 void StateCheck::record_speeds() {
     if (!scene_.effects.are_any()) return;
     swayed_ = Sway::between(effects_.acceleration(), static_cast<double>(micro_steps_before_),
@@ -304,8 +304,8 @@ double StateCheck::energy_of(std::span<const DiscState> own, bool in_swaying_fra
             seen.push_back(in_swaying_frame ? this->in_swaying_frame(known.disc) : known.disc);
             spins.push_back(known.spin);
         }
-        // Between sheared sides a sync changes stored states, and the engine records the
-        // difference.
+        // With sheared sides a sync changes stored velocities, and the engine sums up that change
+        // of energy. So the stored states are used.
         if (!effects_.are_sheared()) own = seen;
     }
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr : &species_;

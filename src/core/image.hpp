@@ -180,7 +180,7 @@ struct Periods {
         return {x != 0 ? dx - x * std::round(dx / x) : dx, dy};
     }
 
-    /// The box itself.
+    /// The bounds of the box; infinite along an axis without a period.
     Inside inside() const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         return {x == 0 ? -infinity : 0, x == 0 ? infinity : x, y == 0 ? -infinity : 0,

@@ -11,7 +11,7 @@ namespace carrom {
 /// Why a stream could not be opened, for messages; empty if it was.
 struct OpenProblem {
     std::string text;
-    /// Not a plain file: a folder; or a pipe, a device or a socket
+    /// The path is not a plain file, but a folder; or a pipe, a device or a socket
     bool is_folder = false, is_special = false;
 };
 

@@ -51,7 +51,7 @@ Domains domains_of_equal_weights(const Communicator& communicator, const Box& bo
     if (largest_group == 1) return Domains(std::move(strips));
     const std::size_t n_bins = WeightBins::n_for(largest_group);
     std::vector<std::uint64_t> of_strips(n_bins * group_sizes.size(), 0);
-    std::vector<WeightBins> bins; // the weight bins of each strip
+    std::vector<WeightBins> bins; // for each strip, bins of weights across it
     for (std::size_t k = 0; k < group_sizes.size(); ++k)
         bins.emplace_back(along(other_axis(axis), box),
                           std::span(of_strips).subspan(k * n_bins, n_bins));

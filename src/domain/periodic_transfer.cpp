@@ -119,7 +119,7 @@ TransferPlan plan_periodic_migration(const Domains& before, const Domains& domai
         const double along = periods.place_of(own[i], axis, time);
         const double across = domains.are_cut_across()
                                   ? periods.place_of(own[i], other_axis(axis), time)
-                                  : 0; // a whole strip contains all positions across
+                                  : 0; // any number, because strips are not cut across
         if (mine.holds(along, across)) return;
         const int owner = domains.owner(along, across);
         if (owner == rank) return;

@@ -258,7 +258,7 @@ void StripDiscs::fetch_halo(double time, double reach, DiscStates* companion) {
     }
     columns_.for_each([&](SideColumn column) { show(columns_[column]); });
     for (std::size_t& offset : halo_offsets_) offset += n_own_;
-    // With the same capacity as the discs, so that the list grows as rarely as theirs
+    // Has the capacity of `discs_`, so that both lists are reallocated equally rarely
     is_shown_.reserve(discs_.capacity());
     is_shown_.resize(n_own_, 0);
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {

@@ -72,8 +72,8 @@ public:
         return pull > 0 ? 2 * least_departure(pull, radius) / pull : 0;
     }
 
-    /// The loss of a collision that takes, or would take, this energy at this squared speed of
-    /// approach.
+    /// The energy that a collision takes, or spares if it is guarded. `energy` is what restitution
+    /// takes. A guarded contact at rest counts as 0.
     CARROM_DEVICE Loss loss(double energy, double squared_speed, bool is_guarded) const {
         if (!is_guarded) return {energy, 0};
         return {0, squared_speed > rest_speed_ * rest_speed_ ? energy : 0};

@@ -109,7 +109,7 @@ public:
 
     // Sides. `spin`, here and below, is null where discs do not turn.
 
-    Extent extent_at(double time) const { return sides_.extent_at(time); } ///< where walls are
+    Extent extent_at(double time) const { return sides_.extent_at(time); } ///< walls' positions
     /// A disc that was inside at some time in between, and is within these bounds at the end, has
     /// met no wall.
     Extent walls_between(double begin, double end) const {

@@ -35,8 +35,8 @@ inline bool is_same_number(double a, double b) {
     return a == b || (std::isnan(a) && std::isnan(b));
 }
 
-/// A row of `effects.contact.pairs`: numbers of contacts between discs of two rows of
-/// `discs.species`, counted from 1, in either order. NaN where those of all pairs hold.
+/// A row of `effects.contact.pairs`: coefficients for contacts between discs of two rows of
+/// `discs.species`, counted from 1, in either order. NaN: the coefficient for all pairs is used.
 struct ContactPair {
     double first = 1, second = 1;
     double restitution = 1, tangential_restitution = -1, friction = 0;

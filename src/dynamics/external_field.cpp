@@ -30,8 +30,8 @@ std::vector<double> round_coefficients(const std::vector<double>& f) {
     return c;
 }
 
-/// The same on a line whose ends have no curvature, so that c = f there. The elimination needs no
-/// pivots, because the matrix is diagonally dominant.
+/// Solves these equations on a line whose ends have no curvature, so that c = f there. The
+/// elimination needs no pivots, because the matrix is diagonally dominant.
 std::vector<double> line_coefficients(const std::vector<double>& f) {
     const std::size_t n = f.size();
     std::vector<double> c = f, factor(n, 0.0);

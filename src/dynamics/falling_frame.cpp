@@ -102,8 +102,8 @@ constexpr std::array<double, 4> gauss_nodes = {0.1834346424956498, 0.52553240991
 
 } // namespace
 
-/// The rest is the integral of products of u minus its mean, where u is the frame's velocity. This
-/// matrix of squares is the product of a triangular matrix and its transpose.
+/// `rest_x`, `rest_y` and `more_y` are the Cholesky factor, a triangular matrix, of the integral of
+/// (u - mean)(u - mean)^T, where u is the frame's velocity.
 FlightIntegral FallingFrame::swaying_flight_integral_at(double time) const {
     const Frame end = moving_at(time);
     const double mean_x = end.x / time, mean_y = end.y / time;

@@ -119,7 +119,7 @@ private:
         std::int64_t n = 1;
 
         std::int64_t cell_of(double place) const;
-        /// The number of boxes from the first one to a cell.
+        /// The number of the periodic copy of the box that holds a cell; 0 is the box itself.
         std::int64_t box_of(std::int64_t cell) const;
     };
 

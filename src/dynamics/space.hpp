@@ -37,8 +37,8 @@ concept Space = std::is_trivially_copyable_v<S> &&
                     { S::is_periodic } -> std::convertible_to<bool>; // whether discs have images
                     { S::has_moving_images } -> std::convertible_to<bool>; // images have velocities
                     changing.begin_interval(n); // times count from micro-step n after this call
-                    // The position of q relative to p; d, d is the difference of stored positions
-                    // at the time d.
+                    // see(p, q, dx, dy, time): the position of q relative to p at `time`, when
+                    // (dx, dy) is the difference of their stored positions.
                     { space.see(p, p, d, d, d) } -> std::same_as<Encounter<double>>;
                     { space.is_periodic_along(axis) } -> std::same_as<bool>;
                     { space.has_sides() } -> std::same_as<bool>;

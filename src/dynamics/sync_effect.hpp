@@ -107,8 +107,8 @@ public:
     virtual double size() const = 0;
     /// The largest factor to which this sync can change it.
     virtual double largest_at(std::int64_t n_syncs) const = 0;
-    /// Changes the factor. `room` is the largest factor at which no two discs overlap; it may
-    /// exceed `largest_at`.
+    /// Changes the factor of all radii. `room` is the largest factor at which no two discs overlap;
+    /// it may exceed `largest_at`.
     virtual void change(std::int64_t n_syncs, double room) = 0;
 };
 

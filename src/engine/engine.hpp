@@ -119,7 +119,7 @@ public:
     }
 
 protected:
-    /// Records the flight from (x, y) to the disc's present position. Threads may call it at once.
+    /// Records the flight from (x, y) to the disc's present position. Threads may call it together.
     void record_crossing(const DiscState& disc, double x, double y, const Periods& periods);
     bool is_followed() const {
         return log_ != nullptr || wall_followers_.are_any() || pair_followers_.are_any();

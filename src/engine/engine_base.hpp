@@ -65,7 +65,7 @@ protected:
     virtual void advance_to(std::int64_t target) = 0;
     /// Sends each own disc to the rank whose domain holds it now. **Collective.**
     virtual void migrate() = 0;
-    /// Follows a sync at `time_`, before times start again from 0. No own disc is faster than
+    /// Called after a sync at `time_`, before times start again from 0. No own disc is faster than
     /// `largest_speed`. **Collective.**
     virtual void finish_sync(double largest_speed) = 0;
     /// Called when effects have changed velocities after finish_sync and before flights. No own

@@ -75,8 +75,8 @@ Touching touching_of(const Dynamics& dynamics, double time, const Periods& perio
 
 /// Fills in the pairs that overlap at `time`, each counted once, the deepest overlap, the pairs
 /// that touch, and the discs that touch several. Pairs that touch slide along each other if
-/// (d.w)^2 <= 4 tolerance sigma w.w, with d and w their separation and relative velocity. To
-/// within the tolerance their distance of closest approach is a diameter then. The grid holds the
+/// (d.w)^2 <= 4 tolerance sigma w.w, with d and w their separation and relative velocity. Then
+/// their distance of closest approach is a diameter, to within the tolerance. The grid holds the
 /// population at that time, for partners within a diameter and the tolerance. **Collective.**
 void measure_overlaps(const Population& population, const CellGrid& grid, double time,
                       const Touching& touching, const Communicator& communicator, int n_threads,

@@ -142,7 +142,7 @@ public:
                                                        const DiscState& q, const Separation& to,
                                                        double time, double flown) const {
         const double gained_x = p.vx - vx_, gained_y = p.vy - vy_;
-        // If masses are equal, q has lost what p has gained, so half of u is known afterwards.
+        // With equal masses q loses what p gains, so u / 2 follows from the velocities afterwards.
         double half_ux = (q.vx - p.vx) + gained_x, half_uy = (q.vy - p.vy) + gained_y;
         if constexpr (Dynamics::has_species) {
             half_ux = 0.5 * (wx_ + (q.vx - p.vx));

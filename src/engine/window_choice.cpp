@@ -11,10 +11,10 @@ namespace {
 // Times in nanoseconds, on one core, with discs in cache. In main memory all take some
 // 1.2 times as long.
 constexpr double disc = 30;     ///< time for each disc in a window of any length
-constexpr double partner = 1.3; ///< time for each partner within a square of one reach
+constexpr double partner = 1.3; ///< time for each disc in a square with edges of one reach
 /// Time for predicting a disc again that was hit inside the window
 constexpr double hit = 85;
-/// Time for each partner of such a disc within a square of one reach
+/// Time for each partner of such a disc in a square with edges of one reach
 constexpr double hit_partner = 3;
 /// For each disc in a part of a micro-step, the end of the part included.
 constexpr double disc_in_part = 65;

@@ -101,7 +101,7 @@ private:
     struct Cut {
         bool is_by_column = false;
         int at = 0;
-        std::size_t middle = 0; ///< the lower part is for the blocks before this one
+        std::size_t middle = 0; ///< the upper part begins with this block number
     };
     /// Decides where to cut a rectangle that is for the blocks [first, end). Returns false to make
     /// it one block.

@@ -179,7 +179,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::u
     const double begin = ground.window.begin, end = ground.window.end;
     const DiscState& disc = discs[slot];
     const float x_end = x[slot] + vx[slot], y_end = y[slot] + vy[slot];
-    float radius = 0; // only for discs of several sizes; equal discs have it in `bounds`
+    float radius = 0; // stays 0 for equal discs, whose radius `x_inner_low` contains
     if constexpr (has_sizes) radius = radii[slot];
     const bool is_inside = x_end - radius > x_inner_low && x_end + radius < x_inner_high &&
                            y_end - radius > y_inner_low && y_end + radius < y_inner_high;

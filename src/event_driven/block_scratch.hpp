@@ -20,7 +20,7 @@ namespace carrom {
 struct EventHistory {
     static constexpr std::uint32_t nobody = 0xfffffffd;
 
-    /// See HaloRecord. In a run that is alone it is 1 after an event.
+    /// See HaloRecord. In a single run of the whole box it is only 0, or 1 after an event.
     std::uint64_t history = 0;
     std::uint32_t generation = 0;   ///< generation of the last collision
     std::uint32_t partner = nobody; ///< partner in the last collision

@@ -94,7 +94,7 @@ private:
         bool saw_all = false;       ///< whether the block's last run covered the whole box
         BlockOutcome outcome;
     };
-    /// `fails_later`: a window that passes stops ends in an error, perhaps after the first stop.
+    /// `fails_later`: the window ends in an error, perhaps after its first stop; it is cut there.
     enum class Verdict { exact, repeat, too_fast, fails_later };
     /// Results of the validation of a window, summed over all ranks.
     struct FoundInWindow {

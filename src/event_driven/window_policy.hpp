@@ -68,7 +68,7 @@ private:
     double last_duration_ = 1;    ///< duration of the last window
     double rounds_lately_ = 0.05; ///< running mean of the number of rounds
     double n_rounds_ = 0;         ///< number of repeated rounds in the last window
-    Rollback last_;               ///< sums over these rounds, with the latest price
+    Rollback last_;               ///< sums over the repeated rounds; the price is the last round's
     Caution caution_;
 };
 

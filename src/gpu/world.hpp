@@ -52,7 +52,7 @@ struct DeviceCounters {
     Largest squared_speed; ///< largest squared speed since the last sync, or over all discs
 };
 
-/// All data of a window's kernels. All arrays but the last ones are indexed by slot.
+/// All data of a window's kernels. Arrays before `active` are indexed by slot.
 template <class D> struct World {
     explicit World(const D& of_scene) : dynamics(of_scene) {}
 

@@ -45,7 +45,7 @@ Grader::Grader(const SceneParameters& scene, double tolerance, std::istream& str
              {scene.n_discs, scene.steps, scene.text_output == TextOutput::every_step}),
       digits_before_(scene.n_discs), is_counter_unknown_(scene.n_discs, false),
       counts_points_(counts_points) {
-    if (scene.steps > 0) points_.are_counters_right = false; // until they are compared
+    if (scene.steps > 0) points_.are_counters_right = false; // not right until they are compared
 }
 
 void Grader::record_spread(std::int64_t step, const ExpectedDiscs& expected) {
@@ -286,7 +286,7 @@ bool Grader::hold_to(const Aim& aim, std::int64_t step) {
 }
 
 /// If roundings decide which discs collide, a disc may be at any position that a rounding can
-/// produce. Equal times are no rounding, so a wrong choice between them is reported as a mistake.
+/// produce. Equal times do not depend on rounding, so a wrong choice between them is a mistake.
 bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     for (const StudentLine& line : lines()) {
         if (aim.allowed[line.id] != unlimited) continue;

@@ -110,8 +110,8 @@ bool concerns_one_disc(Mistake mistake) {
            mistake == Mistake::wall_missed;
 }
 
-/// The disc `wrong`, and a few others whose lines differ from those of the rule, because one of
-/// them may be the reason why `wrong` meets another disc.
+/// Returns `wrong` and a few other discs whose lines differ from those of the rule, because one of
+/// these discs may be the reason why `wrong` meets another disc.
 std::vector<DiscId> differing(const std::vector<GivenDisc>& made,
                               const std::vector<GivenDisc>& given, DiscId wrong) {
     std::vector<DiscId> ids{wrong};

@@ -117,8 +117,8 @@ private:
             }
     }
 
-    /// Gives all points of a region its number, starting from one point, and returns how many they
-    /// are.
+    /// Gives all points of a region its number, starting from one point. Returns the number of
+    /// points.
     std::uint64_t fill(std::size_t first) {
         const auto number = static_cast<std::int32_t>(sizes_.size());
         std::uint64_t n_points = 0;

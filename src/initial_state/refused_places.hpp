@@ -66,8 +66,8 @@ public:
     }
 
 private:
-    /// Larger than the rounding of positions to squares, because boxes have fewer than 10^7 of
-    /// them.
+    /// In edges of squares. It exceeds the rounding of a position, because a box has fewer than
+    /// 10^7 squares along an axis.
     static constexpr double margin = 1e-7;
 
     // Without std::floor, which is a function call on baseline processors.

@@ -24,9 +24,9 @@ Dataset open_checked(hid_t parent, const std::string& name,
 /// The name of a link of a group, by its place in the order of names. Throws FileError.
 std::string name_of_link(hid_t group, hsize_t number);
 
-/// Throws FileError if any numbers of a file lie outside it, except in plain files below its folder
-/// that contain all of their own numbers. HDF5 would open any file that is named there, wait for a
-/// pipe, and return the bytes of any file as numbers.
+/// Throws FileError unless all numbers of a file lie in it, or in plain files below its folder that
+/// name no further files. Without this test HDF5 would open any file that is named there, wait for
+/// a pipe, and return the bytes of any file as numbers.
 void refuse_other_files(hid_t file, const std::string& path);
 
 /// The number of entries of an ascending column that are <= `last`.

@@ -41,9 +41,9 @@ struct SideOfPieces {
 std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples,
                                      const SideOfPieces& columns);
 
-/// Sums over a state that are known only after all discs: sums of pairs of words, which threads and
-/// ranks may add in any order. The first has the collisions of discs with walls (`low`) and with
-/// discs (`high`; a pair counts twice). Then come the state's hash and the targets' checksums.
+/// Sums over a state that are complete only after all discs. Each is a pair of words, and threads
+/// and ranks may add these in any order. The first has the collisions of discs with walls (`low`)
+/// and with discs (`high`; a pair counts twice). Then come the state's hash and the checksums.
 using StateSums = std::vector<StateHash>;
 inline constexpr std::size_t place_of_collisions = 0, place_of_hash = 1, first_checksum = 2;
 

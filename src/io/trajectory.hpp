@@ -56,9 +56,9 @@ public:
     /// none.
     std::int64_t recorded_before() const { return recorded_before_; }
 
-    /// Adds a frame: the discs at `clock`, in any distribution over the ranks, the layout's columns
-    /// along them, and their computed numbers if the layout has such fields. If the layout has
-    /// images, `images` are those of a run of ids, which the next rank's run follows.
+    /// Adds a frame: the discs at `clock`, in any distribution over the ranks. The layout's columns
+    /// and computed numbers, if it has any, are in the same order. If the layout has images, each
+    /// rank gives those of a range of ids, which follows the range of the previous rank.
     /// **Collective.**
     void append(std::int64_t step, std::span<const DiscState> discs, double clock,
                 const SideSpans& columns = {},

@@ -37,8 +37,8 @@ template <class Put>
     put(disc.id, disc.x, disc.y);
 }
 
-/// Calls `put(id, x, y)` for each of the own discs, at its place in the box, on all threads. It may
-/// be called twice for a disc. Few discs have flown out of a periodic box since the last sync.
+/// Calls `put(id, x, y)` for each of the own discs, at its place in the box, on all threads. A disc
+/// that may have left the box since the last sync gets a second call, with the right place.
 template <class Put> void for_each_place(const Run& run, const Put& put) {
     const DiscSystem& system = run.system();
     const std::span<const DiscState> discs = system.discs();

@@ -23,8 +23,8 @@ namespace carrom {
 
 namespace {
 
-/// Each sync brings back at most one crossing a disc. Syncs are 64 steps apart if a step has one
-/// micro-step.
+/// Images are read this often, so that few crossings are in memory: a sync adds at most one for
+/// each disc. By default syncs are 64 micro-steps apart.
 constexpr std::int64_t steps_between_readings = 64;
 
 /// Images can be counted only for periodic sides at rest.

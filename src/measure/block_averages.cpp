@@ -91,7 +91,7 @@ void BlockAverages::add(std::int64_t step, const Block& block) {
     }
     blocks_.resize(most_blocks / 2);
     steps_per_block_ *= 2;
-    // A run may continue beyond its planned end.
+    // Samples become rarer if a run continues beyond its planned end.
     if (2 * steps_per_sample_ <= most_steps_per_sample()) steps_per_sample_ *= 2;
 }
 

@@ -18,7 +18,7 @@ struct Moments {
 
 const double* samples_of(BlockNumbers cell) { return cell.data() + 1 + n_field_moments; }
 
-/// kT along both axes for each disc, from squares relative to the mean of each sample.
+/// kT as a tensor, from velocities relative to the mean velocity of each sample of the cell.
 Moments thermal_of(BlockNumbers cell) {
     const double* const sampled = samples_of(cell);
     const double n = sampled[sample_in_pair]; // 0 / 0 is NaN

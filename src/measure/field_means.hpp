@@ -26,7 +26,7 @@
 namespace carrom {
 
 /// Sums over the samples of a block, the same on all ranks. Squares and flows of heat are relative
-/// to V_k, with weights that correct for the discs' own part of V_k.
+/// to V_k, the cell's velocity in sample k. Weights correct for each disc's own share of V_k.
 enum SampleMoment : std::uint8_t {
     sample_count,   ///< number of samples with a disc in the cell
     sample_drift,   ///< sum of M_k V_k^2

@@ -59,7 +59,7 @@ struct MeasuredRun {
 /// The state at a sample. It contains the discs of this rank, and is valid only during
 /// `Measurement::sample`.
 struct SampledState {
-    std::span<const DiscState> shown;  ///< the discs as the box sees them
+    std::span<const DiscState> shown;  ///< the discs in the frame of the box
     std::span<const DiscState> inside; ///< the shown discs that are in the box
     std::uint64_t n_discs = 0;         ///< number of shown discs on all ranks
     Extent box;

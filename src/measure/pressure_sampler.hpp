@@ -36,7 +36,7 @@ public:
     double mean_temperature() const { return pressures_[pressures_.size() - n_numbers + 3]; }
     /// Kinetic energy. It is unknown after a restart, and between sheared sides.
     double mean_energy() const { return mean_energy_; }
-    /// Time integral of stress times area over the last interval, with all momentum flux; per step.
+    /// Time integral of stress times area over the last interval; per step, with the common drift.
     const Tensor& last_integral() const { return last_integral_; }
 
     /// Stores the data of `sampler`, or makes a sampler from stored data before any step.

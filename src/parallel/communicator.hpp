@@ -72,7 +72,7 @@ public:
     bool any(bool value) const;
     bool all(bool value) const;
 
-    /// Returns on no rank before every rank has called it. **Collective.**
+    /// Returns when every rank has called it. **Collective.**
     void barrier() const;
 
     /// Replaces the value on every rank by that of `root`. **Collective.** A span has the same

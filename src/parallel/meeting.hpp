@@ -41,8 +41,8 @@ private:
     std::unique_ptr<Messages> messages_;
 };
 
-/// A communicator of the same ranks with separate messages. Ranks that have left agree on their end
-/// through it, because others may still be in a call on the first communicator. **Collective.**
+/// A communicator of the same ranks with separate messages. After Departure::leave ranks agree
+/// on their end through it, because others may still use the first one. **Collective.**
 Communicator duplicate_of(const Communicator& communicator);
 
 } // namespace carrom

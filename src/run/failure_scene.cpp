@@ -24,7 +24,7 @@ double size_before(const SceneParameters& scene, const CheckFailure& failure) {
     return scene.effects.size_at(static_cast<double>(failure.step - 1));
 }
 
-/// The row of `discs.species` that a disc is of, counted from 0; 0 if there are none.
+/// The row of `discs.species` to which a disc belongs, counted from 0; 0 if there are no rows.
 std::size_t row_of(const SceneParameters& scene, DiscId id) {
     for (const SpeciesRow& row : scene.effects.contact.rows)
         if (id < row.end) return row.row;

@@ -33,8 +33,8 @@ bool lines_have_velocities(const SceneParameters& scene);
 double& number_of(DiscColumn column, SizeAndMass& body, BySideColumn<double>& beside);
 /// The column's name in scenes.
 const char* name_of(DiscColumn column);
-/// These functions append discs. They begin a new species or run only if the discs differ from the
-/// last ones.
+/// These functions append discs to a list. They add an entry only if the discs differ from those
+/// of the last entry.
 void add_species(std::vector<Species>& species, const Species& next);
 void add_numbers(std::vector<NumberRun>& runs, std::uint64_t count, double number);
 

@@ -151,7 +151,7 @@ struct Rule {
     std::string_view one, other, why;
     /// The problem is reported at the first of these keys that the scene has
     std::vector<std::string_view> keys;
-    std::optional<BoundaryKind> boundary = {}; ///< or at the first side of this kind
+    std::optional<BoundaryKind> boundary = {}; ///< or, if set, at the first side of this kind
     bool (*is_broken)(const SceneParameters&);
 };
 

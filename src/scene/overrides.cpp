@@ -26,7 +26,7 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given, 
     const bool lists_discs = list_discs(given);
     if (lists_discs) settings.remove("discs.generator");
     SceneParameters chosen;
-    chosen.draws_velocities = were_listed; // the chosen speed is for listed discs
+    chosen.draws_velocities = were_listed; // listed discs keep a speed of the input
     if (given.is_right("discs.generator"))
         find_key("discs.generator")->set(chosen, given.find("discs.generator")->value);
     else if (lists_discs)

@@ -198,7 +198,7 @@ struct SceneParameters {
     std::vector<std::string> overrides; ///< settings `key=value` on top of the text
 
     Box box;                 ///< lengths of the edges; 0 if they are not known
-    Origin origin;           ///< origin of places in texts, messages and tables only
+    Origin origin;           ///< origin of printed and given places; the run computes without it
     double radius = 0;       ///< radius of the largest disc
     bool are_points = false; ///< the scene has the radius 0; `radius` is then point_radius(box)
     std::optional<SizeDistribution> sizes; ///< distribution of the radii, which have become species
@@ -224,7 +224,7 @@ struct SceneParameters {
     /// Regions of species or groups, by ids; empty if there are none
     std::vector<RegionRun> regions;
     bool has_shares = false; ///< shares are given in `discs.species`
-    /// By species, in the order of ids; covers all discs, or is empty
+    /// Groups by species, in the order of ids; they cover all discs, or the list is empty
     std::vector<DiscGroup> groups;
     /// Discs that are generated in these regions become fixed bodies
     std::vector<StartRegion> freeze;
@@ -265,8 +265,8 @@ struct SceneParameters {
     std::optional<MeasurementOutput> measurements;
     std::int64_t averages_from = 0; ///< first step of the report's averages
 
-    /// About settings that are allowed but doubtful, such as a number of micro-steps that is not a
-    /// power of two
+    /// Texts about settings that are allowed but doubtful, such as a number of micro-steps that is
+    /// not a power of two
     std::vector<std::string> warnings;
 
     /// The area in which discs move; fixed bodies in it are not subtracted.

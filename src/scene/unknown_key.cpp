@@ -94,8 +94,8 @@ constexpr std::pair<std::string_view, std::string_view> keys_tried[] = {
     {"time.stop.pressure", "try: time.stop.pressure_below or time.stop.pressure_above"},
 };
 
-/// Whether the value can be one of the renamed key. A number cannot be one if the renamed key had
-/// words.
+/// Whether the value may have been valid under the key's old name. A number was not valid if the
+/// old key took words.
 bool is_old_value(const Key& key, const Value& value) {
     const auto* word = std::get_if<std::string>(&value.data);
     return key.words.empty() || (word ? !parse_double(*word) : value.is_nothing());
@@ -152,7 +152,7 @@ std::string table_text(std::string_view key, const Value& value) {
                                : whole                       ? fmt::format("{}", *whole)
                                : word && parse_double(*word) ? *word
                                                              : "";
-    if (!number.empty() && key == "effects.gravity") // downwards, for either sign
+    if (!number.empty() && key == "effects.gravity") // y is negative: gravity pulls downwards
         return try_key("y", number.starts_with('-') ? number : "-" + number);
     return text + what_there_is(key);
 }

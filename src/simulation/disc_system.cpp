@@ -21,8 +21,8 @@ namespace {
 
 /// The largest number of discs in a list that is returned to the system as a whole.
 constexpr std::size_t discs_in_part = 1 << 16;
-/// Room for the halo, to the square root of the number of own discs: 32 discs deep on each side of
-/// the box. Without it all discs would be copied when the halo grows.
+/// Memory for halo discs, per square root of the number of own discs: 32 layers of discs at each of
+/// four sides. Without it all discs would be copied when the halo grows.
 constexpr double halo_per_root = 128;
 
 /// Moves the discs into many lists and frees the original list. A caller's argument might otherwise

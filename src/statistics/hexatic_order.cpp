@@ -77,9 +77,9 @@ private:
         return x >= box_.x_low && x <= box_.x_high && y >= box_.y_low && y <= box_.y_high;
     }
 
-    /// Discs that are further away than the root of this number do not cut the cell, even if they
-    /// are the largest ones: the squares of radii differ by `smaller`. With a corner at the
-    /// distance c, a disc at the distance d cuts nothing if (d - c)^2 - c^2 is above that.
+    /// A disc at the distance d cuts nothing if (d - c)^2 - c^2 > `smaller`. Here c is the distance
+    /// of the farthest corner, and `smaller` the squared radius of the largest disc minus that of
+    /// this one. Returns the square of the smallest such d.
     double squared_reach_of_cell(double smaller) const {
         const double squared = cell_.squared_radius();
         if (smaller == 0) return 4 * squared;

@@ -50,8 +50,8 @@ private:
 bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
                       double reach, int n_threads, std::vector<BondOrder>& orders);
 
-/// The same for those own discs whose id is a multiple of `ids_apart`, in one list. Uses one
-/// thread, because the discs are few.
+/// Like the function above, for the own discs whose id is a multiple of `ids_apart`, in one list.
+/// Uses one thread, because the discs are few.
 bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
                       double reach, std::uint64_t ids_apart, std::vector<BondOrder>& orders);
 

@@ -35,7 +35,7 @@ struct Tensor {
 /// units of `speed_unit`, a power of two, per micro-step.
 struct MotionSample {
     std::uint64_t wall_collisions = 0,
-                  /// Since the scene's start; a collision of a pair counts once
+                  /// Collisions since the scene's start; a collision of a pair counts once
         pair_collisions = 0;
     double speed_unit = 1;
     /// Mean powers of the speed over discs

@@ -46,13 +46,13 @@ struct Stadium {
         const double beyond = std::max(std::fabs(x) - straight, 0.0);
         return std::sqrt(std::max(radius * radius - beyond * beyond, 0.0));
     }
-    /// The area that it has in common with a copy of itself at (p, q), both not negative. The
-    /// common part is symmetric about its middle, and left of that the copy has the shorter chords.
+    /// The area that the stadium shares with a copy of itself at (p, q), both not negative. The
+    /// common part is symmetric about its middle; left of that the copy has the shorter chords.
     double common_area(double p, double q) const {
         const auto chord = [&](double x, double half) { // x from the copy's centre
             return std::clamp(half_chord(x + p) + half - q, 0.0, 2 * half);
         };
-        constexpr int n_parts = 12;
+        constexpr int n_parts = 24;
         const double end = std::max(p / 2 - straight, 0.0) / radius;
         double area = end < 1
                           ? integral(
@@ -131,7 +131,7 @@ double share_of_ideal_pairs_in_circle(double radius, double distance) {
 /// its copy at h. The four quadrants of h are alike.
 double share_of_ideal_pairs_in_stadium(double length, double radius, double inner, double outer) {
     const Stadium stadium{length / 2, radius};
-    const double pairs = integral(inner, outer, 1, [&](double distance) {
+    const double pairs = integral(inner, outer, 2, [&](double distance) {
         return distance * integral(0, std::numbers::pi / 2, 6, [&](double angle) {
                    return stadium.common_area(distance * std::cos(angle),
                                               distance * std::sin(angle));

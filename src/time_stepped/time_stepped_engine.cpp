@@ -382,7 +382,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::finish_sync(double l
                             static_cast<double>(this->sync_every_));
 }
 
-/// Discs fly with their new velocities to the place by which they are sorted next.
+/// The next sorting follows flights with the new velocities, so the largest speed includes them.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::take_speed(double largest_speed) {
     refreshed_speed_ = communicator_.max(largest_speed);
     largest_speed_ = std::max(largest_speed_, refreshed_speed_);

@@ -123,7 +123,7 @@ struct Ground {
 
     Ground(int& argc, char**& argv) : mpi(argc, argv) {
         demand(whole[places_of_values.front()] ==
-               // a file with the program's version, because the places are those of its values
+               // the first value is the version 0.x, so this tests that the places are right
                '0');
     }
 };

@@ -33,7 +33,7 @@ void write_sample_log(const std::string& path, const Communicator& world);
 class Forger {
 public:
     explicit Forger(const std::string& whole);
-    /// Replaces the file by `bytes`, with other checksums; their number must be the same as before.
+    /// Writes `bytes`, with new checksums, to the file. Its length must stay the same.
     void write(const std::string& path, std::vector<char> bytes) const;
 
 private:

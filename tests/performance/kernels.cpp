@@ -77,8 +77,8 @@ void print_message(benchmark::State& state, double items, double flops, double b
     state.counters["bytes"] = bytes;
 }
 
-/// Item: a pair about to collide, for which the predicate is computed to its end: 50 operations (a
-/// root or a quotient is one), two discs.
+/// Item: a pair about to collide, with the whole predicate. It takes 50 operations, where a root or
+/// a quotient counts as one, and the memory of two discs.
 void contact_predicate(benchmark::State& state) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> even(-1, 1);

@@ -49,7 +49,7 @@ double work_of(const std::vector<BlockWork>& round, bool is_repeated) {
     return work;
 }
 
-/// The sum over ranks, in hundredths of a collision. **Collective.**
+/// The sum over ranks, each rounded down to hundredths of a collision. **Collective.**
 double sum_of(double work, const Communicator& world) {
     return static_cast<double>(world.sum(static_cast<std::uint64_t>(100 * work))) / 100;
 }

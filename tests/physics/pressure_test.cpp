@@ -67,7 +67,7 @@ void check_two_discs(double n_collisions) {
         const Averages averages = averaging.averages();
         const TwoDiscRates known = two_disc_rates(scene.setting.box_size, 2,
                                                   std::sqrt(2 * after.kinetic_energy));
-        // the rate of one disc is also that of the pair
+        // There are two discs, so the collision rate of one disc is that of the pair.
         const Estimate disc = averages.collision_frequency;
         const double wall_rate = static_cast<double>(after.wall_collisions -
                                                      before.wall_collisions) /

@@ -48,8 +48,8 @@ std::vector<Copy> FixedBodies::copies(const DiscState& disc, const Body& body, d
     return all;
 }
 
-/// Computes the disc's place and velocity in the box at its own time, and then the distance from
-/// there.
+/// Computes the disc's place and velocity in the box at its own time, and from these the time at
+/// which it meets the body.
 double FixedBodies::meeting_time(const DiscState& disc, const Body& body, Copy copy) const {
     const Box box = setting_.box();
     const double reach = body.radius + setting_.radius_of(disc.id);

@@ -37,7 +37,7 @@ std::vector<Copy> copies_near(const Setting& setting, const DiscState& p, const 
 
 namespace {
 
-/// `place` minus whole lengths, which `up` counts with the opposite sign; exact except for one
+/// Moves `place` by `up` lengths, so that it is in [0, length). The result is exact except for one
 /// rounding.
 double inside_of(double place, double length, double& up) {
     if (place >= 0 && place < length) return place;

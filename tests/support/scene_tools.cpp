@@ -50,6 +50,12 @@ SceneParameters scene_of(const TestScene& test_scene) {
     std::vector<NumberRun>& spins = scene.first_numbers[SideColumn::spin];
     for (const double spin : test_scene.setting.first_spins)
         spins.push_back({spins.size() + 1, spin});
+    if (scene.effects.swap.is_on()) {
+        DiscId end = 0;
+        for (const Species& one : scene.effects.species)
+            scene.first_numbers[SideColumn::swapped_radius].push_back(
+                {end += one.count, one.radius});
+    }
     return scene;
 }
 

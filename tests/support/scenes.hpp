@@ -56,7 +56,7 @@ std::vector<TestScene> boundary_contacts(); ///< contacts on micro-step and sync
 std::vector<TestScene> overlaps();          ///< coincident and overlapping discs
 std::vector<TestScene> tiny_velocities();   ///< denormal, zero and minus zero
 
-/// All of the above. N <= 60 in most, 400 in a few.
+/// All scenes above. Most have at most 60 discs, a few have 400.
 std::vector<TestScene> small_scenes();
 /// Some ten scenes of about 2000 discs, to cross many cells, strips and windows.
 std::vector<TestScene> large_scenes();

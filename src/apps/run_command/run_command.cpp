@@ -223,7 +223,7 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     try {
         is_done = step_to_end(run, options, guard, output_seconds);
     } catch (const CollectiveError& error) {
-        // The message may name a folder that no longer exists; then the guard throws a better one
+        // If the run's folder has been moved or removed, `commit` throws an error that says so
         if (error.code() == ExitCode::output_failure) guard.commit();
         throw;
     }

@@ -90,7 +90,7 @@ struct LostCollisions {
     double pressure_error = 0; ///< relative error; negative if the pressure is too low
 };
 LostCollisions lost_collisions(const SceneParameters& scene, const RunResult& result);
-/// One line if more than a hundredth is lost, else empty.
+/// One line if a run misses more than a hundredth of the collisions of pairs, else empty.
 std::string warning_of_lost_collisions(const SceneParameters& scene, const RunResult& result);
 
 /// The energy that guarded collisions kept, as a share of what restitution would have taken. A

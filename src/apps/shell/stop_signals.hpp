@@ -12,9 +12,9 @@ void record_stop_signals();
 
 class StopSignals {
 public:
-    /// Records signals from here on, unless `record_stop_signals` does. If `are_reported`, the
-    /// first signal is answered on standard error at once, because the end of the step may be far
-    /// away.
+    /// Calls `record_stop_signals`, so that signals are recorded from here on. If `are_reported`,
+    /// the first signal is answered on standard error at once, because the end of the step may be
+    /// far away.
     explicit StopSignals(bool are_reported);
     ~StopSignals(); ///< signals are no longer answered
     StopSignals(const StopSignals&) = delete;

@@ -46,7 +46,7 @@ struct Subcommand {
     const char* help; ///< one line of help
     const char* footer;
     std::vector<Option> options; ///< their values must live as long as `action`
-    /// Called when all values are known, with the problems of the words so far. Adds
+    /// Called when all values are known; `problems` are those of the command line so far. Adds
     /// its own problems, or leaves them to the action, which may find more.
     std::function<Action(std::vector<Problem>& problems)> action;
     const char* word_too_many = "is one word too many";

@@ -27,7 +27,7 @@ namespace {
 
 constexpr QuantitySetting correlation_wavenumber{"correlation_wavenumber"},
     overlap_distance{"overlap_distance"};
-constexpr std::size_t most_species = 8; ///< species with tables of their own
+constexpr std::size_t most_species = 8; ///< more species get no tables of their own
 /// Largest number of waves in a radius. Over shorter waves discs only fly freely.
 constexpr double shortest_waves = 1000;
 /// The number of ids in a run; each run is on one rank

@@ -98,7 +98,7 @@ private:
         for (std::size_t row = 0; row < rows_.size(); ++row) {
             std::vector<std::vector<double>> over_time;
             for (std::size_t k = 0; k < n_intervals(); ++k) {
-                over_time.push_back({0, 0}); // columns of steps, which `means_over_time` leaves out
+                over_time.push_back({0, 0}); // steps, which `means_over_time` skips
                 for (std::size_t part = 0; part < n_force_parts; ++part)
                     over_time.back().push_back(rate_of(k, row, part));
             }

@@ -319,7 +319,7 @@ private:
     FieldSums sums_;              ///< sums of this rank over the block, one kind after another
     std::vector<double> means_;   ///< sample moments of each field
     std::vector<double> heads_;   ///< heads of finished blocks
-    std::vector<double> blocks_;  ///< count and moments of each of their fields
+    std::vector<double> blocks_;  ///< count and moments of each field in finished blocks
 };
 
 /// `n` fields of each block from `first` on. A single field is the whole box, without a position.

@@ -69,8 +69,8 @@ public:
             const double gained = (event.ix * sx + event.iy * sy) / 2,
                          // Difference of p and q before the collision
                 difference = (rx * sx + ry * sy) / 2 - 2 * gained;
-            // The two terms are the change of the flights' integrals over the rest of the time, and
-            // the energy that passes from one centre to the other.
+            // The two terms are the energy that passes from one centre to the other, and the
+            // change of the flights' integrals over the rest of the time.
             const auto sum = [&](double r, double i, double d) {
                 return -gained * d - time * (gained * r + difference * i);
             };

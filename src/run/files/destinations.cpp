@@ -88,7 +88,7 @@ std::vector<Problem> problems_with(const std::vector<Destination>& destinations,
             continue;
         }
         const std::size_t n_before = problems.size();
-        // An output may not be a source; but a restart names its own folder
+        // Only a folder may be both output and source, because a restart names its own
         for (const NamedFile& source : sources)
             if (target.kind != Output::folder && is_same_file(target.path, source.path))
                 refuse(fmt::format("is {} itself", source.name));

@@ -47,8 +47,8 @@ bool is_there(const std::string& path) {
     return fs::symlink_status(path, error).type() != fs::file_type::not_found;
 }
 
-/// Whether a recording has no steps after 0; the next run would record the same. A recording that
-/// cannot be read may have any steps.
+/// Whether a recording has no steps after 0, so that the next run would record the same. False if
+/// it cannot be read.
 bool is_of_start(const std::string& path) {
     try {
         const FileSummary summary = FrameFile(path).summary();

@@ -95,7 +95,7 @@ struct Experience {
     double seconds = 0, reference_seconds = 0; ///< time so far, and that of the event-driven method
     /// Whether the trial was made to its end; false if its error was too large before
     bool is_whole = false;
-    bool grows = false; ///< overlaps keep growing, and errors with them
+    bool grows = false; ///< whether overlaps keep growing, so that errors grow, too
 };
 
 /// Whether overlaps increase by more than chance explains.

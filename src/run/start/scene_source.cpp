@@ -247,7 +247,7 @@ bool are_columns_wrong(const SceneSource& source) {
 Problems disc_line_problems_of(const SceneParameters& scene, std::istream* stream) {
     Problems problems;
     const bool is_known = takes_discs_of_file(scene) && scene.n_discs == 0;
-    if (is_known) return problems; // the number of lines was not found either
+    if (is_known) return problems; // reported before, because counting the lines has failed
     append(problems, problems_of([&] {
                if (!scene.reads_disc_lines()) return;
                if (takes_discs_of_file(scene)) {

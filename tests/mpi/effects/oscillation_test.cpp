@@ -142,7 +142,7 @@ TEST_CASE("oscillation: a disc that never leaves the plate goes with it") {
                 CHECK(disc.vy == Approx(speed).margin(0.0325 * 0.25));
             }
         }
-        // Not many more than one in each contact time.
+        // Little more than one collision in each contact time.
         CHECK(system.totals().wall_collisions < 960); // 1.5 times 160 / 0.25
     }
 }

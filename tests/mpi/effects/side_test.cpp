@@ -53,8 +53,8 @@ TEST_CASE("effects: an ideal gas between walls of two temperatures has their geo
     effects.boundaries[1] = {BoundaryKind::thermal, 1, 9, 0};
     DiscSystem system = system_of(scene, Method::event_driven, world);
     advance_to(system, 4000);
-    // Slow discs take long to cross the box, so samples are correlated; energies of single discs
-    // vary by a few times 3.
+    // Slow discs take long to cross the box, so samples are correlated. The energies of single
+    // discs have a standard deviation of about twice their mean, 3.
     CHECK(mean_energy(system, 20, 400) == Approx(3).epsilon(0.06));
 }
 

@@ -124,7 +124,7 @@ TEST_CASE("effects: rescaling fixes the energy, and kicks keep the momentum") {
     }
 }
 
-// The mean velocity differs from theirs by a rounding error, which must not be amplified to heat.
+// The rounding error of the discs' mean velocity must not be amplified to heat.
 TEST_CASE("effects: discs that all fly alike stay so when velocities are rescaled") {
     const Communicator world = Communicator::world();
     for (const double mass : {0.1, 0.3, 0.37, 7.7}) {

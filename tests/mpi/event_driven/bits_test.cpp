@@ -25,7 +25,7 @@ void check_against_reference(const std::vector<TestScene>& scenes, std::size_t n
                              std::size_t most_predictions) {
     const Communicator world = Communicator::world();
     const auto machine = static_cast<std::size_t>(
-        world.size() + omp_get_max_threads()); // other machine shapes make other runs
+        world.size() + omp_get_max_threads()); // each machine shape tests other runs
     for (std::size_t s = 0; s < scenes.size(); ++s) {
         TestScene scene = scenes[s];
         if (scene.cascades_when_event_driven || !is_wanted(scene, s)) continue;

@@ -40,8 +40,8 @@ TEST_CASE("files: a held folder keeps its files when another folder takes its na
         fs::create_directories(run + "/deep");
         std::ofstream(run + "/deep/a") << "another's";
     };
-    // In the first call the folder is replaced when the file is complete, in the second one it has
-    // been replaced before.
+    // In the first call the folder is replaced after the new file is written, in the second one
+    // before the call.
     CHECK_THROWS_AS(replace_file(run + "/deep/a",
                                  [&](const std::string& beside) {
                                      std::ofstream(beside) << "newer";

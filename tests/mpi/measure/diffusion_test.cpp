@@ -80,7 +80,7 @@ struct ByHand {
     std::vector<double> masses;
     std::vector<Flying> before{}, first{};
     std::vector<std::array<double, 2>> flown{};
-    /// at each time, averaged over windows
+    /// means over discs at each time of a window, one number for each window
     std::array<std::vector<double>, 4> squares{}, products{};
 
     void inspect(const std::vector<Flying>& now, std::size_t step) {

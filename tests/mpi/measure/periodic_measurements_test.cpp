@@ -260,7 +260,7 @@ TEST_CASE("measurements: in a periodic box, g at contact is that of the bulk's p
         SceneParameters scene = measured_around(test, Method::event_driven, 4, 100);
         scene.measurements->give("bins", 60);
         scene.measurements->give("largest_distance",
-                                 2.4); // diameters of 2: bins 50 to 54 are 2 to 2.2
+                                 2.4); // diameter 2: bins 50 to 54 are 2 to 2.2
         DiscSystem system = system_of(scene, test, world);
         Sampler sampler(scene, system, world);
         advance_to(system, sampler, 1600);

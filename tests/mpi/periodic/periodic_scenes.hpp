@@ -28,7 +28,7 @@ inline const char* name_of(const std::array<Boundary, 4>& boundaries) {
     return boundaries == both ? "both" : boundaries == along_x ? "x" : "y";
 }
 
-/// Shifts everything, through the seams.
+/// Shifts all discs; those that leave the box come in again at the opposite side.
 inline TestScene moved(TestScene scene, double dx, double dy) {
     const double length = scene.setting.box_size;
     for (InputDisc& disc : scene.discs) {

@@ -77,7 +77,7 @@ void check_each_stop(bool is_periodic, Method method, const Strides& strides) {
         INFO(scene.name << ", step " << system.step());
         const StateHash here = hash_at(system, world);
         if (world.is_root()) CHECK(to_string(here) == to_string(hash_of(reference.discs())));
-        // Totals redistribute all discs, so that a window ends before its time.
+        // Totals redistribute all discs, so they end a window early.
         if (system.step() % 7 != 5) return;
         const StateHash of_totals = system.totals().hash;
         if (world.is_root()) CHECK(to_string(of_totals) == to_string(here));
@@ -113,7 +113,7 @@ TestScene row_that_is_hit() {
     return scene;
 }
 
-/// The last step of a run that stops at each one and ends in an error.
+/// The last step of a run that stops at every step and ends in an error.
 std::int64_t step_before_error(const TestScene& scene, bool redistributes) {
     const Communicator world = Communicator::world();
     DiscSystem system = start(scene, Method::event_driven, world);

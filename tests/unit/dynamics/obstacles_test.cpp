@@ -79,7 +79,7 @@ TEST_CASE("obstacles: a ball bounces from a slope under gravity where Galileo sa
     CHECK(reflect(obstacles, level).time == Approx(10));
     CHECK(level.vy + effects.gravity.y * 10 == Approx(5)); // the velocity in the box
     CHECK(level.vx == 0.5);
-    // sqrt(2) above a point of the slope, 16 below its start
+    // It meets the slope with its centre at (75, 75 + sqrt(2)), 16 below its start.
     DiscState slope = flying(75, 75 + std::sqrt(2.0) + 16, 0, 0);
     CHECK(reflect(obstacles, slope).time == Approx(8));
     CHECK(slope.vx == Approx(-4));

@@ -58,7 +58,7 @@ TEST_CASE("oscillating walls are read, and refused where they leave no room") {
     CHECK(has(problems({"box.bottom.kind=periodic"}), "no meaning without box.bottom.kind"));
 }
 
-// A listed disc must be inside the wall's position at the start, not inside its line.
+// A listed disc must be inside the wall where it is at the start, not inside its mean position.
 TEST_CASE("listed discs begin before oscillating walls") {
     const std::string one = "[box]\nsize = 100\n[discs]\nradius = 1\n[time]\nsteps = 10\n"
                             "[box.bottom]\nkind = 'oscillating'\namplitude = 2\nperiod = 10\n";
