@@ -2,7 +2,7 @@
 // Averages over a run: how often discs collide, the pressure and the speeds, each with a standard
 // error.
 //
-// They follow from counts of collisions, which every disc carries, and from sums over velocities
+// The averages follow from counts of collisions, which discs carry, and from sums over velocities
 // and impulses in fixed point. So they have the same bits for any number of ranks and threads.
 // docs/reference/report.md describes them, and docs/understanding/pressure.md explains the
 // pressure. Wall and virial pressure follow from counts (Li, Nishikawa, Hoellmer, Carillo, Maggs,
@@ -17,17 +17,17 @@
 
 namespace carrom {
 
-/// Carrom gives one standard error of the mean, from blocks that are long enough to be independent.
-/// The error is NaN if there are too few blocks, if the average is conserved, or if it is still
-/// changing, because a trend is not an error. All numbers are NaN if nothing is averaged.
+/// An average and its standard error, from blocks long enough to be independent. The error is NaN
+/// for too few blocks, for a conserved average, and for one that is still changing, because a trend
+/// is not an error. All numbers are NaN if nothing is averaged.
 struct Estimate {
     double value = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();
-    /// In steps. The shortest correlation time that can be measured is half a block.
+    /// Correlation time in steps. The shortest one that can be measured is half a block.
     double correlation_time = std::numeric_limits<double>::quiet_NaN();
     double independent_samples = std::numeric_limits<double>::quiet_NaN();
     bool is_conserved = false; ///< whether all blocks agree except for rounding
-    bool is_changing = false;  ///< the halves of the run differ by more than errors allow
+    bool is_changing = false;  ///< the halves of the run differ by more than their errors allow
     /// Mean of the first block, if the average is changing
     double first = std::numeric_limits<double>::quiet_NaN();
     /// Mean of the last block, if the average is changing
@@ -39,7 +39,7 @@ struct TensorEstimate {
     Estimate xx, xy, yy;
 };
 
-/// Lengths in the scene's unit, times in steps, masses 1.
+/// Units: lengths in the scene's unit, times in steps, masses 1.
 struct Averages {
     /// The averages begin after `first_step` and cover `steps` steps
     std::int64_t first_step = 0, steps = 0;
@@ -51,8 +51,8 @@ struct Averages {
     Estimate virial_pressure; ///< pressure from collisions with walls and of pairs, (19a)
     Estimate mean_speed;
     Estimate speed_kurtosis; ///< <v^4> / <v^2>^2; 2 N / (N + 1) in equilibrium
-    Estimate temperature;    ///< kT of translation, without a drift along periodic sides
-    /// Kinetic part plus the impulses of pairs times their distances
+    Estimate temperature;    ///< kT of translation, relative to the drift along periodic sides
+    /// Pressure tensor: kinetic part, plus impulse times distance, summed over pairs that collide
     TensorEstimate pressure_tensor;
     Estimate pressure;        ///< half of the trace of `pressure_tensor`
     Estimate compressibility; ///< compressibility factor Z = P A / (N kT)

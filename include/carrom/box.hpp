@@ -6,7 +6,7 @@
 
 namespace carrom {
 
-/// Lengths of the edges. One length makes a square.
+/// Lengths of the box's sides. If only one length is given, the box is a square.
 struct Box {
     double x = 0, y = 0;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The public API of Carrom: hard discs colliding in a box, the same bits on any number of MPI ranks
-// and OpenMP threads. Include this header alone. docs/reference/library.md shows how to use it.
+// The public API of Carrom: hard discs that collide in a box. Results have the same bits on any
+// number of MPI ranks and OpenMP threads. Include only this header (docs/reference/library.md).
 #pragma once
 
 #include <carrom/averages.hpp>

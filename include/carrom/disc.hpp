@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disc in the form that the library's user gets.
+// The state of a disc, as users of the library read and set it.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +8,20 @@ namespace carrom {
 
 /// Lengths are in the scene's unit, times in steps.
 struct Disc {
-    std::uint64_t id = 0;  ///< 0 to N - 1
-    double x = 0, y = 0;   ///< the centre, at the present step; in the box, see SceneFacts
-    double vx = 0, vy = 0; ///< length per step
-    double spin = 0;       ///< angle per step, counterclockwise; 0 unless discs are rough
+    std::uint64_t id = 0;              ///< 0 to N - 1
+    double x = 0, y = 0;               ///< the centre at the present step; SceneFacts has the box
+    double vx = 0, vy = 0;             ///< velocity, length per step
+    double spin = 0;                   ///< angular velocity per step, counterclockwise; 0 if smooth
     std::uint64_t wall_collisions = 0; ///< collisions with walls since the scene's start
     std::uint64_t pair_collisions = 0; ///< collisions with other discs since the scene's start
 
     friend bool operator==(const Disc&, const Disc&) = default;
 };
 
-/// The numbers of a disc that a run does not change. Of growing discs the radius is that at the
-/// scene's start.
+/// The numbers of a disc that a run does not change. For growing discs `radius` is the radius at
+/// the scene's start.
 struct DiscKind {
-    double radius = 0;        ///< length
+    double radius = 0;        ///< radius, in the scene's unit
     double mass = 1;          ///< mass in the scene's unit
     std::int64_t species = 0; ///< number of the species from 0, in the order of ids
 

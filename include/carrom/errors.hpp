@@ -2,7 +2,7 @@
 // The exceptions of the library, and the exit codes that belong to them.
 //
 // Every rank throws the same exception, so a program may catch it and continue. A broken invariant,
-// an MPI error and a rank without memory are not thrown. They end all ranks at once.
+// an MPI error or a rank without memory throws nothing, but ends all ranks immediately.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,12 @@ enum class ExitCode : int {
     bad_input = 2,          ///< a scene, a file to read or an argument is wrong
     collective_failure = 3, ///< an operation of all ranks failed on at least one of them
     output_failure = 4,     ///< a file could not be written
-    broken_invariant = 70,  ///< the program itself is wrong
+    broken_invariant = 70,  ///< an error in the program itself
     stopped = 75            ///< stopped on request before the end
 };
 
-/// A problem with an input: its place, a description, and advice. `line` is 0 if the place has no
-/// line.
+/// A problem with an input: the place (a file or key), the line in it (0 if there is none), and a
+/// description with advice.
 struct Problem {
     std::string place;
     std::int64_t line = 0;
@@ -36,8 +36,8 @@ struct Problem {
 /// "place:line: text", or "place: text" if there is no line. Control characters are escaped.
 std::string to_string(const Problem& problem);
 
-/// A wrong scene, disc list or argument. Every rank throws it with the same list of all problems.
-/// `what()` has one line for each. Exit code 2.
+/// A wrong scene, disc list or argument. Every rank throws the same list of all problems; `what()`
+/// has one line for each problem. Exit code 2.
 class InputError : public std::runtime_error {
 public:
     explicit InputError(std::vector<Problem> problems);
@@ -47,8 +47,8 @@ private:
     std::vector<Problem> problems_;
 };
 
-/// A collective operation that failed on some rank. Thrown on every rank, with the lowest failing
-/// rank's text. `code()` is 2 for a damaged file, 4 for a file that could not be written, else 3.
+/// An operation of all ranks failed on some rank. Every rank throws the text of the lowest failing
+/// rank. `code()` is 2 for a damaged file, 4 for a file that cannot be written, else 3.
 class CollectiveError : public std::runtime_error {
 public:
     explicit CollectiveError(const std::string& text, ExitCode code = ExitCode::collective_failure)

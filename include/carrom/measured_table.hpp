@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One table that a scene's [output.measurements] has measured.
+// A table of results that the scene requests in [output.measurements].
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct MeasuredTable {
     std::vector<std::string> remarks; ///< lines that explain the table and its units
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
-    /// The table gets a row at each sample, and its file is written during the run
+    /// Whether each sample adds a row, which is written to the table's file during the run
     bool grows = false;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of a scene (docs/reference/keys.md), which describe what is simulated. They come from a
-// file, from TOML text, or are set one by one. A Scene is a value: copying it costs as much as its
+// The keys of a scene (docs/reference/keys.md), which describe what is simulated. They are read
+// from a file or from TOML text, or set one by one. A Scene is a value; a copy of it copies its
 // text.
 #pragma once
 
@@ -24,16 +24,16 @@ struct SceneFacts {
     Box box;
     double x_low = 0, y_low = 0; ///< coordinates of the lower left corner; not 0 with `box.origin`
     double radius = 0;           ///< radius of the largest disc
-    double packing = 0;          ///< share of the box that discs cover
+    double packing = 0;          ///< share of the box's area that discs cover
     std::uint64_t n_discs = 0;
-    std::int64_t steps = 0;       ///< the last step
+    std::int64_t steps = 0;       ///< number of the last step
     std::int64_t micro_steps = 1; ///< micro-steps per step
     /// Whether the method is event-driven; otherwise it is time-stepped
     bool is_event_driven = false;
     /// Whether the left and right, and the bottom and top sides are periodic
     bool is_periodic_x = false, is_periodic_y = false;
-    bool exchanges_radii = false; ///< Simulation::kinds has the radii of the present step
-    /// One line for each setting that is allowed but often a mistake
+    bool exchanges_radii = false; ///< whether Simulation::kinds has the present radii
+    /// A warning, one line each, for every setting that is allowed but often a mistake
     std::vector<std::string> warnings;
 };
 
@@ -46,14 +46,14 @@ public:
     /// 0 reads it. Throws InputError if it cannot be read. **Collective.**
     static Scene from_file(const Session& session, const std::string& path);
 
-    /// Makes a scene from TOML text. Messages contain `name`, which must end in `.toml`. Files that
-    /// the scene names are searched in the folder of that name. Not collective.
+    /// Makes a scene from TOML text. `name`, which must end in `.toml`, appears in messages; files
+    /// that the scene names are searched in its folder. Not collective.
     static Scene from_text(std::string_view text, const std::string& name = "scene.toml");
 
-    /// Sets a key, as `--set key=value` of `carrom run` does: `set("time.steps", 100)`. A text may
-    /// be a word or any TOML value: `set("discs.streams", "[{region = [0, 0, 1, 1], velocity = [1,
-    /// 0]}]")`. It replaces an older value, and keys of the text that exclude this one. The value
-    /// is checked later. Not collective: every rank sets the same. Returns this scene.
+    /// Sets a key, as `--set key=value` of `carrom run` does: `set("time.steps", 100)`. A text is a
+    /// word or any TOML value: `set("discs.streams", "[{region = [0, 0, 1, 1], velocity = [1,
+    /// 0]}]")`. Replaces an older value, and removes keys that exclude this one. `check` tests the
+    /// value later. Not collective: every rank sets the same values. Returns this scene.
     Scene& set(std::string_view key, std::string_view value);
     Scene& set(std::string_view key, const char* value) {
         return set(key, std::string_view(value));
@@ -69,22 +69,22 @@ public:
             return set_number(key, static_cast<double>(value));
     }
 
-    /// Sets the discs at the start, in any order: ids 0 to N - 1 once each, with positions and
-    /// velocities, and with spins if one is not 0. They must be the same on every rank. They become
-    /// the scene's `discs.list`, so files of the run contain them as text: some 80 bytes a disc, at
-    /// most 64 MiB. Use `discs.file` or a generator for more. Throws InputError for wrong ids. Not
-    /// collective.
+    /// Sets the discs at the start, in any order: ids 0 to N - 1 once each, with positions,
+    /// velocities, and spins if any of them is not 0. Every rank must set the same discs. They
+    /// become the scene's `discs.list`, so files of the run contain them as text of some 80 bytes a
+    /// disc, at most 64 MiB. For more discs use `discs.file` or a generator. Throws InputError for
+    /// wrong ids. Not collective.
     Scene& set_discs(std::span<const Disc> discs);
 
-    /// Checks every key. Throws InputError with all problems. Reads no other file. Not collective.
+    /// Checks every key. Throws InputError with all problems. Reads no files. Not collective.
     SceneFacts check() const;
 
     struct Source {
         std::string name = "scene.toml";
         /// The scene's text, which is never empty
         std::string text = "# made by a program; its settings are all\n";
-        std::int64_t lines_before_discs = 0; ///< lines of legacy text before its discs
-        bool discs_follow = false;           ///< the text is a legacy header, which discs follow
+        std::int64_t lines_before_discs = 0; ///< number of lines of legacy text before the discs
+        bool discs_follow = false;           ///< whether the text is a legacy header before discs
         std::vector<std::string> settings;   ///< "key=value", in the order they were set
     };
     const Source& source() const { return source_; }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The processes that simulate together: one or many MPI ranks. No MPI header is needed.
 //
-// Make it before any other object of the library, and destroy it last. "Collective" in these
-// headers means that every rank of the session makes the same calls in the same order, with equal
-// arguments unless stated otherwise. All calls come from the thread that made the session.
+// Make the session before any other object of the library, and destroy it last. "Collective" in
+// these headers means that every rank of the session makes the same calls in the same order, with
+// equal arguments unless stated otherwise. All calls come from the thread that made the session.
 #pragma once
 
 #include <functional>
@@ -20,18 +20,18 @@ public:
     /// A session that started MPI also ends it. Throws InputError if MPI has ended, or was started
     /// without MPI_THREAD_FUNNELED. **Collective** over all processes of the program.
     ///
-    /// A session that starts MPI changes the process. A rank without memory then ends all ranks
-    /// with code 3. SIGXFSZ is ignored. HDF5 closes no files at exit, so close your own. If MPI was
-    /// already running, nothing of this changes. A session never sets how OpenMP's threads wait. If
-    /// other programs use the same cores, set OMP_WAIT_POLICY=passive before the program starts.
+    /// A session that starts MPI changes the process: a rank without memory ends all ranks with
+    /// code 3, SIGXFSZ is ignored, and HDF5 closes no files at exit, so close yours. A session in a
+    /// running MPI changes none of these. No session sets how OpenMP's threads wait. If other
+    /// programs use the same cores, set OMP_WAIT_POLICY=passive before the program starts.
     Session();
 
-    /// Makes a session of the ranks of one communicator, which the program gives as its Fortran
-    /// number: `Session session(MPI_Comm_c2f(comm))`. The communicator is duplicated. MPI must run.
-    /// **Collective** over its ranks.
+    /// Makes a session of the ranks of one communicator, which is given by its Fortran number:
+    /// `Session session(MPI_Comm_c2f(comm))`. MPI must be running. The communicator is duplicated.
+    /// **Collective** over the communicator's ranks.
     explicit Session(int fortran_communicator);
 
-    ~Session(); ///< **Collective.** Destroy all simulations and files of this session before.
+    ~Session(); ///< **Collective.** Destroy all simulations and files of this session first.
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
@@ -39,12 +39,12 @@ public:
     int size() const; ///< number of ranks
     bool is_root() const { return rank() == 0; }
 
-    /// The name and version of the MPI library, also before MPI runs. Communicators of another
-    /// library cannot be used.
+    /// Name and version of the MPI library; may be called before MPI starts. Communicators of
+    /// another MPI library cannot be used.
     static std::string mpi_library();
 
-    /// Runs `body` on every rank and returns an exit code for main, the largest of all ranks. It is
-    /// the result of `body`, or the code of an InputError or CollectiveError, whose text rank 0
+    /// Runs `body` on every rank and returns the largest exit code of all ranks, for main. A rank's
+    /// code is the result of `body`, or that of an InputError or CollectiveError, whose text rank 0
     /// prints to standard error. Any other exception ends all ranks with code 70. **Collective.**
     int run(const std::function<int()>& body) const;
 

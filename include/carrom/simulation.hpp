@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene that moves forward in time, and its checkpoints.
+// Simulates a scene step by step, and writes and reads checkpoints.
 //
-// The state depends only on the scene and the step. It has the same bits for any number of ranks
-// and threads, and for any division of the steps into calls. A disc is stored on the rank whose
-// part of the box it is in.
+// The state depends only on the scene and the step: it has the same bits for any number of ranks
+// and threads, and for any division of the steps into calls. A disc is stored on the rank that owns
+// the part of the box in which the disc lies.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,14 @@
 
 namespace carrom {
 
-/// Choices that change how long a run takes, and never its result.
+/// Options that change the time that a run takes, but never its results.
 struct Options {
-    /// Threads of each rank; 0: OMP_NUM_THREADS, or else its share of the node's cores
+    /// Threads of each rank; 0: OMP_NUM_THREADS, or if unset the rank's share of the node's cores
     int threads = 0;
     /// Receives on rank 0 each line that `carrom run` prints when it starts, such as warnings and
     /// the choice of a pilot. If empty, these lines are dropped.
     std::function<void(const std::string& line)> messages{};
-    /// Needed for `read_images`; takes 16 bytes a disc in periodic boxes
+    /// Count crossings of periodic sides, for `read_images`; takes 16 bytes a disc in such boxes
     bool counts_images = false;
 };
 
@@ -38,17 +38,17 @@ struct CheckpointSchedule {
     std::string folder{};         ///< made if it is missing; no other run may write to it
     std::int64_t every_steps = 0; ///< steps between checkpoints; 0: none by steps
     double every_minutes = 0;     ///< wall time between checkpoints; 0: none by time
-    std::int64_t keep = 2; ///< number of checkpoints to keep; older ones of this run are removed
-    bool at_end = true;    ///< whether to write one at the step `time.steps`, too
+    std::int64_t keep = 2; ///< number of checkpoints to keep; this run's older ones are removed
+    bool at_end = true;    ///< whether to write a checkpoint also at the last step, `time.steps`
 };
 
 class Simulation {
 public:
-    /// Makes the scene at step 0. Throws InputError with all problems of the scene and of its
-    /// discs. With `time.accuracy` a pilot first chooses method and micro-steps; `scene()` has its
-    /// choice. Of the tables under `output` only `output.measurements` has an effect, and no file
-    /// is written. Memory: 94 bytes a disc and more (120 in the event-driven method), shared by the
-    /// ranks. The session must outlive it. **Collective.**
+    /// Makes the scene at step 0. Throws InputError with all problems of the scene and its discs.
+    /// With `time.accuracy` a pilot run first chooses method and micro-steps, which `scene()` then
+    /// contains. Of the tables under `output` only `output.measurements` is used, and no file is
+    /// written. Memory of all ranks together: at least 94 bytes a disc (event-driven method: 120).
+    /// The session must outlive the simulation. **Collective.**
     Simulation(const Session& session, const Scene& scene, const Options& options = {});
 
     /// Continues from a checkpoint of this library or of `carrom run`, with the same bits as the
@@ -60,7 +60,7 @@ public:
                                       const std::vector<std::string>& settings = {},
                                       const Options& options = {});
 
-    /// After a move, every call of the old object throws InputError, except assignment.
+    /// After a move the old object can only be assigned to or destroyed; calls throw InputError.
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
@@ -68,8 +68,8 @@ public:
     const SceneFacts& scene() const; ///< facts of the scene; not collective
     std::int64_t step() const;       ///< steps since the scene's start; not collective
 
-    /// Moves forward to the end of that step. Throws InputError if the step is before the present
-    /// one, or after `time.steps`. **Collective.**
+    /// Simulates to the end of `step`. Throws InputError if `step` is before the present step or
+    /// after `time.steps`. **Collective.**
     void advance_to(std::int64_t step);
     void advance(std::int64_t n_steps);                  ///< **Collective.**
     void advance_to_end() { advance_to(scene().steps); } ///< **Collective.**
@@ -79,27 +79,27 @@ public:
     /// outside. Costs a copy and a sort. Not collective.
     std::vector<Disc> discs() const;
 
-    /// All discs, in the order of their ids, on rank 0; nothing on the others. Takes 64 bytes a
-    /// disc there. **Collective.**
+    /// All discs, in the order of their ids, on rank 0; an empty list on other ranks. Takes 64
+    /// bytes a disc on rank 0. **Collective.**
     std::vector<Disc> gathered_discs() const;
 
-    /// These functions write numbers of this rank's discs to the places of their ids, and leave the
+    /// These functions write numbers of this rank's discs to places given by the ids, and leave the
     /// places of other discs unchanged. x and y of disc `id` go to places 2 id and 2 id + 1, its
-    /// spin and its direction to place `id`, its collisions with walls and with discs to places 2
-    /// id and 2 id + 1. If the arrays have no room for all discs of the scene, InputError is
-    /// thrown. Cost: one pass by all threads. Not collective.
+    /// spin or direction goes to place `id`, its counts of collisions with walls and with discs go
+    /// to places 2 id and 2 id + 1. If an array is too short for all discs of the scene, InputError
+    /// is thrown. Cost: one pass over the discs by all threads. Not collective.
     void read_positions(std::span<double> xy) const;
-    void read_velocities(std::span<double> xy) const; ///< length per step
-    void read_spins(std::span<double> spins) const;   ///< angle per step
+    void read_velocities(std::span<double> xy) const; ///< velocities, length per step
+    void read_spins(std::span<double> spins) const;   ///< angular velocities per step
     /// Angles from the x axis, counterclockwise; 0 unless discs are active.
     void read_directions(std::span<double> angles) const;
     void read_collisions(std::span<std::int64_t> counts) const;
 
-    /// Writes by how many box lengths discs have crossed periodic sides, along x and along y, to
-    /// places 2 id and 2 id + 1. Each rank writes its share of the ids. Adding these lengths to a
-    /// position gives a path without jumps. They count from the scene's start, or from a checkpoint
-    /// that has none. Writes nothing unless `Options::counts_images` was set and a side is
-    /// periodic. Throws InputError between sheared sides, because their images move.
+    /// Writes how many box lengths discs have crossed periodic sides by, along x and y, to places
+    /// 2 id and 2 id + 1; a position plus these lengths gives a path without jumps. Each rank
+    /// writes its share of the ids. Crossings count from the scene's start, or from a checkpoint
+    /// that has no such counts. Writes nothing unless `Options::counts_images` was set and a side
+    /// is periodic. Throws InputError for sheared sides, because their images move.
     /// **Collective.**
     void read_images(std::span<std::int32_t> lengths) const;
 
@@ -107,12 +107,12 @@ public:
     /// (`effects.swap`), the radii are those of the present step. Not collective.
     std::vector<DiscKind> kinds() const;
 
-    /// Gives this rank's discs other positions, velocities or spins between two steps. `discs` are
-    /// those that `discs()` returns, in any order; their counts of collisions are ignored. Discs
-    /// whose numbers do not change keep all of their bits. Averages begin anew. If positions have
-    /// changed, measurements begin anew, too. Throws InputError for numbers that are not finite,
-    /// for discs outside of the box or in obstacles, and if more pairs than before would overlap;
-    /// nothing is changed then. Costs about as much as making the simulation from a list of discs.
+    /// Replaces positions, velocities or spins of this rank's discs between two steps. `discs` are
+    /// the discs that `discs()` returns, in any order; their counts of collisions are ignored. A
+    /// disc whose numbers are unchanged keeps all of its bits. Averages restart, and measurements
+    /// restart if positions have changed. Throws InputError, and changes nothing, for numbers that
+    /// are not finite, for discs outside of the box or in obstacles, and if more pairs than before
+    /// would overlap. Costs about as much as making the simulation from a list of discs.
     /// **Collective.**
     void change_discs(std::span<const Disc> discs);
 
@@ -121,21 +121,21 @@ public:
     /// called. **Collective.**
     Simulation copy() const;
 
-    /// Sums over all discs; every rank gets them. Costs a pass over the discs and one search for
-    /// pairs that touch, about as much as a step. **Collective.**
+    /// Sums over all discs; every rank gets the result. Costs a pass over the discs and one search
+    /// for pairs that touch, together about as much as a step. **Collective.**
     Totals totals() const;
 
-    /// Averages since stepping began here, or since `restart_averages`. Costs a pass over the
+    /// Averages since this object began to step, or since `restart_averages`. Costs a pass over the
     /// discs. **Collective.**
     Averages averages() const;
-    void restart_averages(); ///< starts the averages anew; **Collective.**
+    void restart_averages(); ///< restarts the averages; **Collective.**
 
-    /// The tables of the scene's `output.measurements`, as sampled so far; none before the first
-    /// sample. Samples are taken inside `advance_to`. The same on every rank. Not collective.
+    /// The tables of `output.measurements` with all samples so far, equal on all ranks; none before
+    /// the first sample. `advance_to` takes the samples. Not collective.
     std::vector<MeasuredTable> measurements() const;
 
-    /// Writes the state as a whole file or not at all. Its folder must exist. Throws
-    /// CollectiveError (code 4) if it fails; an older file of that name then stays unchanged.
+    /// Writes the state to a file, completely or not at all. The folder must exist. Throws
+    /// CollectiveError (code 4) if writing fails; an older file of that name is then unchanged.
     /// Writes 80 bytes a disc to disk. **Collective.**
     void write_checkpoint(const std::string& path) const;
 

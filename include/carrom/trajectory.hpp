@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of discs: writing a trajectory as a simulation moves forward, and reading trajectories and
-// checkpoints frame by frame. docs/reference/formats.md has the formats.
+// Writes trajectories while a simulation runs, and reads trajectories and checkpoints frame by
+// frame. docs/reference/formats.md describes the files.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace carrom {
 
-/// The data of each disc in a trajectory. Positions are always there.
+/// The data of each disc in a trajectory. Positions are always included.
 struct TrajectoryFields {
     bool velocities = true;
     bool spins = false;           ///< spins of rough discs
@@ -25,27 +25,27 @@ struct TrajectoryFields {
     bool single_precision = true; ///< 4 bytes a number instead of 8
 };
 
-/// Writes one H5MD file, which can be read while it grows. Frames pass through rank 0.
+/// Writes an H5MD file, which can be read during the run. Rank 0 writes all frames.
 class TrajectoryWriter {
 public:
-    /// Makes a new file without frames, which replaces any other of that name. The simulation must
-    /// outlive the writer. Throws CollectiveError (code 4) if the file cannot be written. All calls
-    /// are **collective**.
+    /// Makes a new file without frames, which replaces any file of that name. The simulation must
+    /// outlive the writer. Throws CollectiveError (code 4) if the file cannot be written. All
+    /// members are **collective**.
     TrajectoryWriter(const Simulation& simulation, const std::string& path,
                      const TrajectoryFields& fields = {});
 
-    /// Continues a file of the same run, cut back to frames up to the simulation's present step, or
-    /// makes a new one if there is none. Throws CollectiveError (code 2) if the file has other
-    /// fields or belongs to another run. **Collective.**
+    /// Continues the file of the same run, after removing frames later than the simulation's
+    /// present step; makes a new file if there is none. Throws CollectiveError (code 2) if the file
+    /// has other fields or belongs to another run. **Collective.**
     static TrajectoryWriter going_on(const Simulation& simulation, const std::string& path,
                                      const TrajectoryFields& fields = {});
 
     TrajectoryWriter(TrajectoryWriter&&) noexcept;
     ~TrajectoryWriter();
 
-    /// Adds the present step and brings it to disk, so that a crash after this call does not damage
-    /// the file. Throws CollectiveError (code 4) if that fails; earlier frames stay undamaged.
-    /// **Collective.**
+    /// Adds a frame of the present step and writes it to disk, so that a crash after this call does
+    /// not damage the file. Throws CollectiveError (code 4) if writing fails; earlier frames stay
+    /// undamaged. **Collective.**
     void append();
 
     /// Describes all frames in an XDMF file beside the trajectory, for ParaView and VisIt. Call it
@@ -59,7 +59,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Reads a trajectory, or a checkpoint as a file of one frame.
+/// Reads the frames of a trajectory; a checkpoint counts as a file of one frame.
 class FrameReader {
 public:
     /// Opens the file on every rank. Throws InputError if it is neither a trajectory nor a
@@ -73,9 +73,9 @@ public:
     Box box() const;                ///< a box that holds the discs of all frames
     std::string state_hash() const; ///< hash of a checkpoint's state; empty for a trajectory
 
-    /// The discs of a frame, by id, or those of ids from `begin` to `end` - 1. Places are those of
-    /// the scene (`box.origin`). Numbers that the file does not have are 0. `frame` counts from 0.
-    /// Throws InputError if there is no such frame or disc, or if reading fails. Not collective.
+    /// The discs of a frame, by id: all of them, or ids `begin` to `end` - 1. Positions are in the
+    /// scene's coordinates (`box.origin`). Numbers that the file lacks are 0. `frame` counts from
+    /// 0. Throws InputError if there is no such frame or disc, or if reading fails. Not collective.
     std::vector<Disc> read(std::size_t frame) const;
     std::vector<Disc> read(std::size_t frame, std::uint64_t begin, std::uint64_t end) const;
 

@@ -6,7 +6,7 @@
 
 namespace carrom {
 
-/// "0.3.0". Not collective.
+/// The version, such as "0.3.0". Not collective.
 std::string version();
 
 } // namespace carrom

@@ -14,15 +14,15 @@ namespace carrom {
 
 namespace {
 
-/// The least width of cells, in mean distances between discs. Smaller cells save no time, and each
-/// takes 4 bytes.
+/// The smallest width of cells, in mean distances between discs. Smaller cells would save no time,
+/// but cost 4 bytes each.
 constexpr double least_spacings = 1.15;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Resizes without much spare memory. The number of cells differs between windows, so the memory of
-/// the largest number is not kept, and a few more cells than last time do not double the memory.
-/// The old numbers may be lost.
+/// Resizes with little spare memory. The number of cells changes from window to window. So the
+/// memory of the largest number is freed, and a slight increase does not double the memory. The old
+/// contents may be lost.
 template <class Numbers> void resize_close(Numbers& numbers, std::size_t size) {
     if (numbers.capacity() < size || numbers.capacity() > size + size / 2) {
         Numbers().swap(numbers);
@@ -31,7 +31,7 @@ template <class Numbers> void resize_close(Numbers& numbers, std::size_t size) {
     numbers.resize(size);
 }
 
-/// Writes zeros behind the flights, where vectors read past the last one.
+/// Writes zeros behind the last flight, because vector instructions read past it.
 void pad(RawVector<float>& lanes, std::size_t length) {
     for (std::size_t lane = 1; lane <= 4; ++lane)
         std::fill_n(lanes.begin() + static_cast<std::ptrdiff_t>(lane * length - filter_padding),
@@ -42,15 +42,15 @@ int cells_along(double length, double width) {
     return static_cast<int>(std::clamp(std::ceil(length / width), 1.0, 1e9));
 }
 
-/// Positions of discs in a box without periodic sides.
+/// Positions of discs in a box without periodic sides: the stored ones.
 struct StoredPlaces {
     static double x_of(const DiscState& disc, double time) { return disc.x_at(time); }
     static double y_of(const DiscState& disc, double time) { return disc.y_at(time); }
     static double vx_of(const DiscState& disc) { return disc.vx; }
 };
 
-/// Positions of images in a box that repeats itself at rest. It is a type of its own, so that such
-/// boxes do not pay for images that move.
+/// Positions of images in a periodic box without shear. This is a separate type, so that such boxes
+/// do not pay for moving images.
 struct PlacesAtRest {
     Periods periods;
 
@@ -59,8 +59,8 @@ struct PlacesAtRest {
     static double vx_of(const DiscState& disc) { return disc.vx; }
 };
 
-/// Finds a disc's cell. It holds copies, so a compiler keeps them in registers while it stores
-/// cells.
+/// Finds a disc's cell. Its members are copies, so that the compiler keeps them in registers while
+/// cells are stored.
 template <class Places> struct CellFinder {
     Places places;
     GridGeometry geometry;
@@ -96,13 +96,13 @@ GridGeometry make_geometry(const Extent& extent, Axis axis, double reach, std::s
     const auto [width, height] = turned(axis, std::max(extent.size().x, 0.0),
                                         std::max(extent.size().y, 0.0));
     const auto n_cells = static_cast<double>(n_discs + 16);
-    // In a narrow tube one cell has the whole height.
+    // In a narrow tube a cell is as high as the tube.
     const double sparse_width = std::max(std::sqrt(width / n_cells) * std::sqrt(height),
                                          std::max(width, height) / n_cells);
-    // Two cells for each reach save a third of the pairs, if cells as wide as the reach would
+    // Cells of half this width save a third of the pair tests, if cells as wide as the reach would
     // contain many discs.
     const double discs_per_reach = reach / std::max(sparse_width, reach * 1e-3);
-    // With much smaller cells the reach of fast discs would be more cells than an int can count.
+    // The lower limit keeps the reach of fast discs, counted in cells, within the range of int.
     const double wanted = cell_width > 0 ? std::max(cell_width, 1e-6) * reach
                                          : (discs_per_reach > 4 ? reach / 2 : reach);
     GridGeometry geometry;
@@ -161,7 +161,7 @@ void CellGrid::sort_cells(std::span<DiscState> own, const GridGeometry& geometry
     anchor_ = time;
     has_flights_ = false;
     sort(own, n_threads, companions);
-    RawVector<float>().swap(lanes_); // only the sorter used the memory of these lanes
+    RawVector<float>().swap(lanes_); // only the sorter used this memory
 }
 
 void CellGrid::sort(std::span<DiscState> own, int n_threads, const Companions& companions) {
@@ -192,8 +192,8 @@ void CellGrid::sort_columns(SideColumns& columns, Lent order, int n_threads) con
     });
 }
 
-/// Writes the new order into the second lane, and then moves the discs. Nearly all move only a
-/// little, so this is one pass over the discs.
+/// Writes the new order into the second lane, and then moves the discs. One pass is enough, because
+/// nearly all discs move only a little.
 template <class Places>
 void CellGrid::sort(const Places& places, std::span<DiscState> own, int n_threads,
                     const Companions& companions) {
@@ -273,8 +273,8 @@ void CellGrid::set_apart(double speed) {
             longest_squared = std::max(longest_squared, squared);
             apart_.push_back(index_of(static_cast<std::uint32_t>(slot)));
             kept.insert(kept.end(), {x[slot], y[slot], vx[slot], vy[slot]});
-            // Far from all discs and from each other, and moving away, because the filter keeps
-            // pairs without relative velocity.
+            // Puts this flight far from all others, and lets it move away, because the filter does
+            // not reject pairs with zero relative velocity.
             x[slot] = y[slot] = 1e6f * static_cast<float>(apart_.size());
             vx[slot] = vy[slot] = 1e3f * static_cast<float>(apart_.size());
         }
@@ -298,10 +298,10 @@ CellGrid::Cell CellGrid::cell_of(LocalIndex own_index) const {
 }
 
 std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
-    constexpr double margin = 1e-6; // a margin, because the ends of cells are rounded
+    constexpr double margin = 1e-6; // because cells' ends are rounded
     const auto corner = turned(geometry_.axis, geometry_.low, geometry_.across_low);
-    // The cells first .. end - 1 of n that lie within low .. high, if the first one begins at
-    // `origin`. The first and the last cell also contain discs from outside of the grid.
+    // The range first .. end - 1 of those of n cells that lie within low .. high; the first cell
+    // begins at `origin`. The first and the last cell also contain discs from outside of the grid.
     const auto cells_within = [this](double low, double high, double origin, int n) {
         const double from = (low - origin) / geometry_.cell_width + margin,
                      to = (high - origin) / geometry_.cell_width - margin;
@@ -348,8 +348,8 @@ std::vector<std::int64_t> CellGrid::column_shares(int n_shares) const {
 }
 
 float CellGrid::touching_squared(double diameter) const {
-    // Positions and velocities have an error of 2^-24 of the grid's size. The filter allows for its
-    // own rounding.
+    // Single precision gives positions and velocities errors of 2^-24 of the grid's size. The
+    // filter itself allows for the rounding in its own computation.
     const double extent = std::max(geometry_.n_columns, geometry_.n_rows) +
                           4.0 * std::max<double>(geometry_.n_reach, longest_flight_);
     const double touching = diameter / geometry_.cell_width * (1 + 0x1p-18) + 0x1p-21 * extent;

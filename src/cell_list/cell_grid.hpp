@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cell list: discs sorted into square cells by their positions at a window's anchor. Cells
-// follow each other column by column. So the cells of a column that lie within reach of a disc are
-// one contiguous range of slots, which is read 16 lanes at a time.
+// The cell list: discs sorted into square cells by their positions at a window's anchor. Cells are
+// numbered column by column. So the cells of one column within reach of a disc are one contiguous
+// range of slots, which is read 16 lanes at a time.
 //
-// Own discs are sorted in memory: the slot of an own disc is its place, and neighbours in space are
-// neighbours in memory. Discs of the halo stay in the order in which they arrived. They have slots
-// of their own, in the columns that contain any. For each slot the grid holds the disc's free
-// flight in single precision, in units of cells and windows, so that nothing can overflow. Flights
-// serve only to reject pairs; the predicate in double precision decides. Price: 16 bytes a disc and
-// 4 a cell.
+// Own discs are sorted in memory: the slot of an own disc is its index, so neighbours in space are
+// neighbours in memory. Discs of the halo stay in the order of arrival. They have their own slots,
+// in those columns that contain halo discs. For each slot the grid stores the disc's free flight in
+// single precision, in units of cells and windows, so that nothing can overflow. Flights only serve
+// to reject pairs; the predicate in double precision decides. Cost: 16 bytes a disc and 4 bytes a
+// cell.
 #pragma once
 
 #include <cstdint>
@@ -26,12 +26,12 @@
 
 namespace carrom {
 
-/// Where the cells lie. Columns follow each other along `axis`, rows across it. Discs outside of
-/// all cells are put into its border cells, which brings no two discs further apart.
+/// The positions of cells. Columns follow each other along `axis`, rows across it. Discs outside of
+/// the grid belong to its border cells, which never puts two discs further apart.
 struct GridGeometry {
     Axis axis = Axis::x;
-    double low = 0, across_low = 0; ///< where the first column and the first row begin
-    double cell_width = 1;          ///< the width of cells that set_cell_width has set
+    double low = 0, across_low = 0; ///< lower ends of the first column and row
+    double cell_width = 1;          ///< width of cells; change it by set_cell_width
     int n_columns = 1, n_rows = 1;
     int n_reach = 1; ///< discs that can collide are at most this many cells apart
 
@@ -49,7 +49,7 @@ struct GridGeometry {
     }
 
 private:
-    double cells_per_length_ = 1; ///< the inverse saves a division for each disc, which would
+    double cells_per_length_ = 1; ///< the inverse width, because a division for each disc would
                                   ///< double the cost of finding its cell
     static int clamp_cell(double cell, int n) {
         if (!(cell > 0)) return 0;
@@ -57,18 +57,18 @@ private:
     }
 };
 
-/// Returns cells over `extent` for partners within `reach`, not many more than
-/// `n_discs` cells. `cell_width` is in units of the reach; 0 chooses it by density.
+/// Returns cells over `extent` for pairs within `reach`, at most about `n_discs` cells.
+/// `cell_width` is in units of the reach; 0 chooses it from the density.
 GridGeometry make_geometry(const Extent& extent, Axis axis, double reach, std::size_t n_discs,
                            double cell_width);
 
-/// Returns at most half as many cells as discs, for searches that are rare. Such a grid takes less
-/// memory, but a search tries more pairs.
+/// Returns at most about half as many cells as discs, for rare searches. Such a grid takes less
+/// memory, but a search tests more pairs.
 GridGeometry make_sparse_geometry(const Extent& extent, Axis axis, double reach,
                                   std::size_t n_discs);
 
-/// Free flights in slot order: position in cells from the grid's corner at the window's start,
-/// cells per window. x is along the grid's axis, y across it.
+/// Free flights in slot order: the position at the window's start, in cells from the grid's corner,
+/// and the velocity, in cells per window. x is along the grid's axis, y across it.
 struct FlightLanes {
     const float* x = nullptr;
     const float* y = nullptr;
@@ -84,12 +84,12 @@ struct DiscPair {
     LocalIndex first = 0, second = 0;
 };
 
-/// Number of slots behind the last one that must be readable, because vectors read past the end of
-/// their range.
+/// Number of slots behind the last one that must be readable, because vector instructions read past
+/// the end of a range.
 inline constexpr std::size_t filter_padding = 64;
 
-/// Arrays with one element for each own disc, which are sorted and moved together with the discs.
-/// Empty arrays are left out.
+/// Arrays with one element for each own disc, which are reordered together with the discs. Empty
+/// arrays are ignored.
 struct Companions {
     std::span<DiscState> states;
     SideColumns* columns = nullptr;
@@ -97,22 +97,22 @@ struct Companions {
 
 class CellGrid {
 public:
-    /// Brings `own` into the order of their cells at `anchor`. Flights begin at `time` and last for
-    /// `duration`. In a periodic box the position of the disc's image counts. There is no halo
-    /// until add_halo.
+    /// Sorts `own` by cells at the time `anchor`. Flights begin at `time` and last for `duration`.
+    /// In a periodic box the position of the disc's image is used. The grid then has no halo until
+    /// add_halo is called.
     void sort(std::span<DiscState> own, const GridGeometry& geometry, double anchor, double time,
               double duration, int n_threads, const Periods& periods = {},
               const Companions& companions = {});
-    /// Sorts into cells by the places at `time`, without flights: there are no
-    /// `lanes()`, so searches find nothing.
+    /// Sorts into cells by the positions at `time`, without flights. Then `lanes()` is empty, so
+    /// searches find nothing.
     void sort_cells(std::span<DiscState> own, const GridGeometry& geometry, double time,
                     int n_threads, const Periods& periods = {}, const Companions& companions = {});
     /// Sorts the halo's discs, which follow the own ones in memory, into cells.
     void add_halo(std::span<const DiscState> halo, int n_threads = 1);
 
-    /// Takes the flights of discs faster than `speed`, in lengths per unit of time,
-    /// out of the lanes, so that no search finds them. They are listed in `apart()`
-    /// until discs are sorted again.
+    /// Removes flights of discs faster than `speed`, in lengths per unit of time, from the lanes,
+    /// so that no search finds these discs. They are listed in `apart()` until discs are sorted
+    /// again.
     void set_apart(double speed);
     std::span<const LocalIndex> apart() const { return apart_; }
     FlightLanes apart_lanes() const {
@@ -127,7 +127,7 @@ public:
     std::size_t n_own() const { return n_own_; }
     bool has_halo() const { return !halo_.is_empty(); }
 
-    /// Indexed by own disc; for the halo by slot.
+    /// Flights of own discs by index. `halo_lanes` has those of the halo by slot.
     FlightLanes lanes() const { return lanes_of(lanes_, lane_length_); }
     FlightLanes halo_lanes() const { return lanes_of(halo_lanes_, halo_.size() + filter_padding); }
     LocalIndex halo_index(std::uint32_t slot) const {
@@ -149,8 +149,8 @@ public:
                      : 0;
     }
 
-    /// The own discs of the cells (column, first_row .. last_row). Rows outside the grid are left
-    /// out.
+    /// The slots of own discs in the cells (column, first_row .. last_row). Rows outside of the
+    /// grid are ignored.
     SlotRange run(int column, int first_row, int last_row) const {
         return run_from(cell_start_, static_cast<std::size_t>(column) * rows(), first_row,
                         last_row);
@@ -161,29 +161,29 @@ public:
         return run_from(halo_.starts(), halo_.first_cell(column), first_row, last_row);
     }
     bool has_halo_in(int column) const { return halo_.has_column(column); }
-    /// The first row, not below `row`, that has halo discs in this column, or the end of rows. The
-    /// column must have some.
+    /// The first row from `row` on that has halo discs in this column, or the number of rows if no
+    /// such row is left. The column must have halo discs.
     int next_halo_row(int column, int row) const {
         return halo_.next_row(column, row, geometry().n_rows);
     }
 
-    /// Finds the cell of an own disc by a search. Loops over all discs should go over the cells
-    /// instead, which is faster.
+    /// The cell of an own disc, found by a search. Loops over all discs should loop over cells
+    /// instead, because that is faster.
     struct Cell {
         int column = 0, row = 0;
     };
     Cell cell_of(LocalIndex own_index) const;
 
-    /// Ascending ranges that contain all own discs outside of `inner` at the anchor, and also many
-    /// that are inside.
+    /// Ascending ranges that contain every own disc outside of `inner` at the anchor. They also
+    /// contain many discs inside.
     std::vector<SlotRange> outside(const Inside& inner) const;
 
-    /// The first columns of `n_shares` shares with about equally many own discs, and
-    /// the number of columns at the end.
+    /// Divides the columns into `n_shares` shares with about equally many own discs. Returns the
+    /// first column of each share, and then the number of columns.
     std::vector<std::int64_t> column_shares(int n_shares) const;
 
-    /// Prefetch what a search around an own disc needs: its flight, later the starts
-    /// of the cells around it, and then the flights in these cells.
+    /// Three steps of prefetching for a search around an own disc: its flight, then where the cells
+    /// around it start, then the flights in these cells.
     void prefetch_flight(LocalIndex index) const {
         if (index >= n_own_) return;
         const float* flight = lanes_.data() + index;
@@ -202,7 +202,7 @@ public:
         });
     }
 
-    /// The squared distance in cells beyond which flights cannot touch, with a margin
+    /// The squared distance, in cells, beyond which two discs cannot touch. It includes a margin
     /// for single precision.
     float touching_squared(double diameter) const;
     /// `length` in cells, with a margin for single precision.
@@ -222,8 +222,8 @@ private:
         return {starts[base + static_cast<std::size_t>(low)],
                 starts[base + static_cast<std::size_t>(high) + 1]};
     }
-    /// Calls visit for the disc's cell and the cells to its left and right, depending on where it
-    /// is in its cell.
+    /// Calls visit for the cell of the disc at the window's start and for the cells in the same row
+    /// of the columns beside it.
     template <class Visit> void for_each_place_around(LocalIndex index, const Visit& visit) const {
         if (index >= n_own_) return;
         const int column = clamped_column(lanes_[index]);
@@ -264,8 +264,8 @@ private:
     RawVector<float> halo_lanes_; ///< x, y, vx, vy of halo discs, by slot
 
     std::vector<LocalIndex> apart_;
-    std::vector<float> apart_lanes_; ///< x, y, vx, vy of the discs in `apart_`
-    double longest_flight_ = 0;      ///< longest flight in `apart_`, in cells
+    std::vector<float> apart_lanes_; ///< x, y, vx, vy of these discs
+    double longest_flight_ = 0;      ///< longest of their flights, in cells
 };
 
 } // namespace carrom

@@ -31,8 +31,8 @@ void DiscSorter::share_out_equally(std::uint32_t n_cells) {
     }
 }
 
-/// Calls visit(disc, cell) for the discs of the share `home` that lie in the cells of `mine`,
-/// ascending.
+/// Calls visit(disc, cell) for those discs of the share `home` that lie in cells of `mine`, in
+/// ascending order.
 template <class Visit>
 [[gnu::noinline]] void DiscSorter::visit_discs(const Sorter& mine, const Sorter& home,
                                                const Lent cell_of, Visit visit) const {
@@ -53,8 +53,8 @@ template <class Visit>
         for (const LocalIndex disc : home.strays) visit_one(disc);
 }
 
-/// Counts the discs that `count_share` has not, and returns the number of all discs in the cells of
-/// `mine`.
+/// Adds the discs that `count_share` has left out to the counts, and returns the number of all
+/// discs in the cells of `mine`.
 std::uint32_t DiscSorter::count_rest(const Sorter& mine, std::uint32_t* counts,
                                      Lent cell_of) const {
     std::size_t n_discs = 0;
@@ -72,8 +72,8 @@ std::uint32_t DiscSorter::count_rest(const Sorter& mine, std::uint32_t* counts,
     return static_cast<std::uint32_t>(n_discs);
 }
 
-/// Returns what gives a disc of the share `home` the next place of its cell. It lists discs whose
-/// new place belongs to another thread, or that have left the ring buffer by then.
+/// Returns a function that assigns the next place of a cell to a disc of the share `home`. It lists
+/// the discs that move to another thread's places or further than the ring buffer reaches.
 auto DiscSorter::place_giver(const Sorter& home, Carrier& carrier, std::uint32_t* counts,
                              SortMemory memory) const {
     const std::size_t first = home.first_disc, n_near = home.end_disc - first, n_passed = n_passed_;
@@ -86,11 +86,11 @@ auto DiscSorter::place_giver(const Sorter& home, Carrier& carrier, std::uint32_t
         };
 }
 
-/// Replaces each cell's count by its end, and writes the order of the discs.
+/// Writes the order of the discs, and replaces the count of each cell by the cell's end.
 void DiscSorter::find_places(std::uint32_t* counts, SortMemory memory) {
     const Lent cell_of = memory.cells();
     const std::size_t n_shares = sorters_.size();
-    std::vector<std::uint32_t> starts(n_shares + 1, 0); // the first places of the shares of cells
+    std::vector<std::uint32_t> starts(n_shares + 1, 0); // first place of each share of cells
 #pragma omp parallel num_threads(n_threads_)
     {
 #pragma omp for schedule(static, 1)

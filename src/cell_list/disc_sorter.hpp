@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Brings discs into the order of their cells, in place.
 //
-// A counting sort finds which disc goes where. Each thread counts the discs of its share in cells
-// of its own, and lists the few that lie in those of others. Then one pass over the discs moves
-// them: nearly all come from a place a little ahead or a little behind. The few that come from
-// farther away are copied beforehand. Price: two passes. The sorter works in the memory of the
-// flights, which are written afterwards, so it needs no memory of its own.
+// A counting sort determines the new place of each disc. Each thread counts the discs of its share
+// in its own cells, and lists the few discs that lie in other threads' cells. Then one pass moves
+// the discs: nearly all move only a few places; those that move farther are copied beforehand.
+// Cost: two passes. The sorter borrows the memory of the flights, which are written later, so it
+// needs no memory of its own.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace carrom {
 
-/// Stores whole numbers in memory that belongs to floats.
+/// A list of whole numbers in memory that belongs to floats.
 class Lent {
 public:
     explicit Lent(float* at) : at_(at) {}
@@ -35,8 +35,8 @@ private:
     float* at_;
 };
 
-/// The memory that sorting borrows: lanes of `lane_length` numbers. The first lane
-/// holds each disc's cell, the second the order.
+/// The memory that the sorter borrows: lanes of `lane_length` numbers. The first lane holds each
+/// disc's cell, the second lane the new order of the discs.
 struct SortMemory {
     RawVector<float>& lanes;
     std::size_t lane_length = 0;
@@ -47,25 +47,25 @@ struct SortMemory {
 
 class DiscSorter {
 public:
-    /// Sorts `discs` by `find_cell(disc)`, a number below the count of cells. Writes
-    /// which disc goes where to `memory.order()`, and the first place of each cell,
-    /// and the end, to `cell_start`. `n_columns` is the number of stretches of cells.
+    /// Sorts `discs` by `find_cell(disc)`, which is below the number of cells. Writes the new order
+    /// to `memory.order()`. Writes the first place of each cell, and the end of the last one, to
+    /// `cell_start`. `n_columns` determines the length of the ring buffer.
     template <class CellOf>
     void find_order(std::span<const DiscState> discs, const CellOf& find_cell,
                     std::size_t n_columns, int n_threads, RawVector<std::uint32_t>& cell_start,
                     SortMemory memory);
 
-    /// Gives each thread the travellers among its places. Returns false if there are many: then the
-    /// discs are not nearly sorted, and `rearrange` is faster.
+    /// Gives each thread the far-moving discs that go to its places. Returns false if there are
+    /// many: the discs are then not nearly sorted, and `rearrange` is faster.
     bool share_out_travellers();
-    /// Brings discs to their places, in ascending order. Calls placed(i) when the disc of place i
-    /// is there. From then on the order up to i is not needed.
+    /// Moves discs to their new places, in ascending order. Calls placed(i) when place i has its
+    /// disc; from then on the order up to i is no longer needed.
     template <class Placed>
     void carry(std::span<DiscState> discs, SortMemory memory, const Placed& placed) {
         set_travellers_aside(discs, memory);
         bring(discs, memory, placed);
     }
-    /// Sorts discs that are not nearly sorted, in each of the arrays that are not empty.
+    /// Reorders arrays of discs that are not nearly sorted; empty arrays are ignored.
     void rearrange(std::initializer_list<std::span<DiscState>> arrays, SortMemory memory);
 
 private:
@@ -73,14 +73,14 @@ private:
     struct Sorter {
         std::size_t first_disc = 0, end_disc = 0;
         std::uint32_t first_cell = 0, end_cell = 0;
-        std::vector<LocalIndex> strays; ///< discs of the share in other cells, ascending
+        std::vector<LocalIndex> strays; ///< discs of this share in cells of others, ascending
     };
     /// The state of a thread while it brings its share of the places into order.
     struct Carrier {
-        DiscStates passed;     ///< a ring buffer of the discs whose places were just overwritten
-        DiscStates travellers; ///< discs that move far, copied beforehand
-        std::vector<LocalIndex> arrivals; ///< their new places, ascending, with an end
-        /// New places of travellers that go to other threads, unsorted
+        DiscStates passed;                ///< ring buffer of the discs overwritten last
+        DiscStates travellers;            ///< discs that move far; copied beforehand
+        std::vector<LocalIndex> arrivals; ///< new places of `travellers`, ascending, and an end
+        /// New places of far-moving discs that go to other threads, unsorted
         std::vector<LocalIndex> sent;
     };
 
@@ -98,7 +98,7 @@ private:
     void visit_discs(const Sorter& mine, const Sorter& home, Lent cell_of, Visit visit) const;
     auto place_giver(const Sorter& home, Carrier& carrier, std::uint32_t* counts,
                      SortMemory memory) const;
-    /// Adds to a list of the few discs that have gone far, unless they are many.
+    /// Adds a disc to a list of discs that move far, unless the list is already too long.
     [[gnu::noinline]] void record(std::vector<LocalIndex>& few, std::size_t index) const {
         if (few.size() <= most_travellers_) few.push_back(static_cast<LocalIndex>(index));
     }
@@ -111,7 +111,7 @@ private:
     std::vector<Sorter> sorters_;     ///< by thread
     std::vector<Carrier> carriers_;   ///< by thread
     std::size_t n_passed_ = 1;        ///< length of the ring buffer, a power of two
-    std::size_t most_travellers_ = 0; ///< limit for each thread's share
+    std::size_t most_travellers_ = 0; ///< limit of far-moving discs in each share
     bool are_in_disorder_ = false;    ///< whether too many discs move far
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sorter's passes over discs, for the one file that calls them.
+// The loops of DiscSorter over discs; included only by the file that calls them.
 #pragma once
 
 #include <algorithm>
@@ -10,17 +10,17 @@
 
 namespace carrom {
 
-/// Prefetches consecutive numbers, further ahead than the processor does by itself. Prefetching
-/// beyond the last number is harmless.
+/// Prefetches the discs that follow, further ahead than the processor does. Prefetching beyond the
+/// last disc is harmless.
 inline void prefetch(const DiscState& disc) {
     constexpr std::uintptr_t ahead = 32 * sizeof(DiscState);
     __builtin_prefetch(
         reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(&disc) + ahead));
 }
 
-/// Gives each thread a share of the discs, and the cells from where its discs begin to where the
-/// next share's discs begin. A share begins in the median cell of its first five discs, because a
-/// single disc may have gone far.
+/// Gives each thread a share of the discs, and the cells from the start of its share to the start
+/// of the next one. The start is the median cell of the share's first five discs, because a single
+/// disc may have moved far.
 template <class CellOf>
 void DiscSorter::share_out(std::span<const DiscState> discs, const CellOf& find_cell,
                            std::uint32_t n_cells) {
@@ -44,7 +44,7 @@ void DiscSorter::share_out(std::span<const DiscState> discs, const CellOf& find_
     }
 }
 
-/// Stores each disc's cell, and counts those in cells of the same share.
+/// Stores the cell of each disc of a share, and counts the discs that lie in the share's own cells.
 template <class CellOf>
 void DiscSorter::count_share(Sorter& mine, std::span<const DiscState> discs, const CellOf find_cell,
                              std::uint32_t* counts, Lent cell_of) {
@@ -68,8 +68,8 @@ void DiscSorter::find_order(std::span<const DiscState> discs, const CellOf& find
                             RawVector<std::uint32_t>& cell_start, SortMemory memory) {
     begin(discs.size(), n_columns, n_threads);
     const auto n_cells = static_cast<std::uint32_t>(cell_start.size() - 1);
-    // A cell's count becomes the place of its next disc, and so at last the place where the next
-    // cell begins.
+    // A cell's count is first replaced by the place of its next disc. When all discs have places,
+    // this is where the next cell begins.
     std::uint32_t* const counts = cell_start.data() + 1;
     cell_start.front() = 0;
     share_out(discs, find_cell, n_cells);

@@ -22,7 +22,7 @@ void HaloCells::set_cell(std::size_t disc, int column, int row) {
     std::atomic_ref(column_[order_[disc]]).store(0, std::memory_order_relaxed);
 }
 
-/// Assigns cells to the columns that contain discs, and returns the number of cells.
+/// Gives cells to those columns that contain discs, and returns the number of cells.
 std::uint32_t HaloCells::number_columns(std::uint32_t n_rows) {
     std::uint32_t n_cells = 0;
     for (std::uint32_t& column : column_)
@@ -30,13 +30,13 @@ std::uint32_t HaloCells::number_columns(std::uint32_t n_rows) {
     return n_cells;
 }
 
-/// Replaces the number of discs of each cell, which is stored at the next place in `start_`, by the
-/// cell's first slot.
+/// Replaces the number of discs of each cell by the cell's first slot. The number of cell k is
+/// stored in `start_[k + 1]`.
 void HaloCells::turn_counts_into_starts(int n_threads) {
     const std::size_t n_cells = start_.size() - 1;
     const auto n_shares = static_cast<std::size_t>(n_threads);
     std::uint32_t* const counts = start_.data() + 1;
-    std::vector<std::uint32_t> starts(n_shares + 1, 0); // where each thread's share starts
+    std::vector<std::uint32_t> starts(n_shares + 1, 0); // first slot of each thread's share
 #pragma omp parallel num_threads(n_threads)
     {
 #pragma omp for schedule(static, 1)
@@ -56,8 +56,8 @@ void HaloCells::turn_counts_into_starts(int n_threads) {
     }
 }
 
-/// A counting sort. Threads fill the slots of a cell in any order, so its discs are then sorted
-/// into the order of the halo.
+/// A counting sort. Threads fill the slots of a cell in any order, so the discs of each cell are
+/// then sorted by their index in the halo.
 void HaloCells::sort(std::uint32_t n_rows, int n_threads) {
     const std::size_t n_discs = size(), n_cells = number_columns(n_rows);
     const auto take = [n_threads](std::uint32_t& number) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of a halo by cells. Only columns that hold any of them have cells, because a halo is
-// near the ends of a strip. All threads of a rank sort together.
+// The discs of a halo, sorted into cells. Only columns that contain halo discs have cells, because
+// a halo lies near the ends of a strip. All threads of a rank sort together.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@ namespace carrom {
 
 class HaloCells {
 public:
-    /// Makes room for `n_discs`, whose cells are set next, by several threads at once.
+    /// Makes room for `n_discs` discs. Several threads may then call `set_cell` at the same time.
     void begin(std::size_t n_discs, int n_columns);
     void set_cell(std::size_t disc, int column, int row);
-    /// Gives each disc a slot. Discs of a cell are in the order of the halo.
+    /// Gives each disc a slot. Discs in the same cell keep the order of the halo.
     void sort(std::uint32_t n_rows, int n_threads);
 
     std::size_t size() const { return order_.size(); }
@@ -26,10 +26,10 @@ public:
     bool has_column(int column) const {
         return !is_empty() && column_[static_cast<std::size_t>(column)] != no_discs;
     }
-    /// The place of the column's first cell in `starts`.
+    /// The index of the column's first cell in `starts()`.
     std::uint32_t first_cell(int column) const { return column_[static_cast<std::size_t>(column)]; }
-    /// The first row, not below `row`, that has discs in this column, or `n_rows`. The column must
-    /// have some.
+    /// The first row from `row` on that has discs in this column, or `n_rows` if no such row is
+    /// left. The column must have discs.
     int next_row(int column, int row, int n_rows) const {
         if (row >= n_rows) return n_rows;
         const std::uint32_t* const of_rows = &start_[first_cell(column)];
@@ -37,7 +37,7 @@ public:
                                                            of_rows[row]);
         return std::min(static_cast<int>(next - of_rows) - 1, n_rows);
     }
-    /// The first slots of cells, and the end.
+    /// The first slot of each cell, and the end of the last one.
     const RawVector<std::uint32_t>& starts() const { return start_; }
     LocalIndex disc_in(std::uint32_t slot) const { return order_[slot]; }
     std::uint32_t slot_of(LocalIndex disc) const { return slot_[disc]; }
@@ -49,12 +49,12 @@ private:
     std::uint32_t number_columns(std::uint32_t n_rows);
     void turn_counts_into_starts(int n_threads);
 
-    /// For each column its first cell in `start_`, or `no_discs`
+    /// First cell of each column in `start_`; `no_discs` if the column is empty
     std::vector<std::uint32_t> column_;
-    RawVector<std::uint32_t> start_; ///< first slot of each cell, and the end
+    RawVector<std::uint32_t> start_; ///< first slot of each cell, and the last cell's end
     /// The disc of each slot; before sorting, the column of each disc
     RawVector<LocalIndex> order_;
-    /// The slot of each disc; before sorting, its row, then its cell
+    /// The slot of each disc; before sorting, the disc's row and later its cell
     RawVector<std::uint32_t> slot_;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A number in every lane of a vector, as a member of a struct. Vectors of SVE have no fixed size,
-// so they cannot be members. On such machines this type holds the number, and spreads it over the
-// lanes where it is used. On all others it holds the vector, which saves instructions.
+// A vector whose lanes all hold one number, as a member of a struct. Vectors of SVE have no fixed
+// size and cannot be members, so on SVE machines this type stores the number and spreads it over
+// the lanes at each use. On others it stores the vector, which saves instructions.
 //
-// Like the filters that include it, this file is compiled once per instruction set.
+// This file is compiled once for each instruction set, as are the filters that include it.
 #if defined(CARROM_HELD_VECTOR) == defined(HWY_TARGET_TOGGLE)
 #ifdef CARROM_HELD_VECTOR
 #undef CARROM_HELD_VECTOR

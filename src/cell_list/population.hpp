@@ -9,7 +9,7 @@
 
 namespace carrom {
 
-/// A rank's discs: its own first, then the halo's. Pairs of two halo discs are left to other ranks.
+/// The own discs of a rank, then the halo. Other ranks treat the pairs of two halo discs.
 struct Population {
     std::span<const DiscState> discs;
     std::size_t n_own = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chunks of a loop for several threads. Each thread takes the chunks of its own share first, in
-// order, and then those that others have left.
+// Divides a loop into chunks for several threads. Each thread first works on the chunks of its own
+// share, in order, and then on chunks that other threads have not begun.
 //
-// Shares stay the same if the work does, so a thread finds its data in its own cache. No thread
-// waits while there is work.
+// A thread gets the same share each time if the work is the same, so its data are in its own cache.
+// No thread is idle while there is work.
 #pragma once
 
 #include <atomic>
@@ -21,15 +21,15 @@ inline std::size_t share(std::size_t n, std::size_t part, std::size_t n_parts) {
 
 class SharedWork {
 public:
-    /// Thread k's share is `bounds[k]` .. `bounds[k + 1]` - 1; chunks are of `chunk` items at most.
+    /// Thread k's share is `bounds[k]` .. `bounds[k + 1]` - 1; a chunk has at most `chunk` items.
     SharedWork(std::vector<std::int64_t> bounds, std::int64_t chunk)
         : bounds_(std::move(bounds)), chunk_(chunk), n_shares_(bounds_.size() - 1),
           next_(std::make_unique<Next[]>(n_shares_)) {
         for (std::size_t k = 0; k < n_shares_; ++k) next_[k].item = bounds_[k];
     }
 
-    /// Calls work(item) for items of thread `thread`, and then of others, until none
-    /// is left. All threads call it at the same time.
+    /// Calls work(item) for items of thread `thread`, and then for items of other threads, until
+    /// none is left. All threads call `run` at the same time.
     template <class Work> void run(int thread, const Work& work) {
         for (std::size_t k = 0; k < n_shares_; ++k) {
             const std::size_t share = (static_cast<std::size_t>(thread) + k) % n_shares_;
@@ -54,7 +54,7 @@ private:
     std::unique_ptr<Next[]> next_;
 };
 
-/// Equal shares of n items.
+/// The bounds of equal shares of n items.
 inline std::vector<std::int64_t> equal_shares(std::int64_t n, int n_shares) {
     std::vector<std::int64_t> bounds;
     for (int k = 0; k <= n_shares; ++k) bounds.push_back(n * k / n_shares);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The error of a run's self-check (DiscSystem::check_every_step): which invariant is
-// broken, where, and the discs around.
+// The error of a run's self-check (DiscSystem::check_every_step): the broken invariant, the disc
+// and step, and the discs around it.
 #pragma once
 
 #include <cstdint>
@@ -16,25 +16,25 @@ namespace carrom {
 enum class Invariant : int {
     finite,     ///< every number of every state is finite
     owned_once, ///< each of the discs 0 .. N-1 is owned by exactly one rank
-    radius,     ///< the radius that swaps have given a disc is the one that it collides with
+    radius,     ///< the disc collides with the radius that swaps have given it
     in_box,     ///< the disc's centre is at least a radius away from every wall, within rounding
-    departed,   ///< a disc leaves by an open side, stays outside, and comes back by an inlet only
+    departed,   ///< a disc leaves only by an open side, stays outside, and returns only by an inlet
     in_domain,  ///< the disc is in the domain of the rank that owns it
     in_cell,    ///< the disc is in the cell into which it was sorted
-    clear,      ///< the disc does not overlap a fixed body
-    /// The disc's counters have grown by the number of its collisions; a collision of a pair counts
-    /// for both discs
+    clear,      ///< the disc does not overlap a body fixed in the box
+    /// The disc's counters have grown by the number of its collisions; a collision of two discs
+    /// counts for both
     counters,
-    motion,  ///< the disc's velocity and its spin have changed in collisions only
-    overlap, ///< no pair overlaps, except as the time-stepped method allows
-    energy,  ///< the discs that have collided have the same total energy as before, and so
-             ///< have all discs
+    motion,  ///< the disc's velocity and spin have changed only in collisions
+    overlap, ///< no pair overlaps, unless the time-stepped method allows it
+    energy,  ///< the total energy is unchanged, both of the discs that have collided and of all
+             ///< discs
 };
 
-/// Thrown on every rank with the same contents; exit code 70. `discs_around`: the reported discs,
-/// the discs with which they collided and the nearest ones, at the start of the failed step, in the
-/// order of their ids. It is empty if the reported disc does not exist. Spins of rough discs, per
-/// step, run along them, and so do the present radii of discs that exchange them.
+/// Thrown on every rank with the same contents; exit code 70. `discs_around`, sorted by id, has the
+/// reported discs, their partners in collisions and the nearest discs, at the start of the failed
+/// step. It is empty if the reported disc does not exist. Spins of rough discs, per step, are in
+/// the same order, and so are present radii of discs that exchange radii.
 class CheckFailure : public CollectiveError {
 public:
     CheckFailure(const std::string& text, Invariant broken, std::int64_t at_step, DiscId reported,
@@ -47,7 +47,7 @@ public:
     Invariant invariant;
     std::int64_t step; ///< the step that ended with the broken invariant
     DiscId disc;
-    int rank; ///< the rank that owned the disc last
+    int rank; ///< the last rank that owned the disc
     std::vector<InputDisc> discs_around;
     std::vector<double> spins, radii;
 };

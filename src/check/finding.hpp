@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A broken invariant of a disc, as ranks compare it and as it is printed.
+// A broken invariant of a disc: ranks compare findings, and one is printed.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// `partner`, `value` and `bound` depend on the invariant (text_of).
+/// The meaning of `partner`, `value` and `bound` depends on the invariant (see text_of).
 struct Finding {
     Finding() = default; ///< no broken invariant
     Finding(Invariant broken, int owner, DiscId id, double how_much = 0, double allowed = 0,
@@ -26,7 +26,7 @@ struct Finding {
     double value = 0, bound = 0;
 };
 
-/// `body` names the fixed body that a disc overlaps, if there is one.
+/// The error message. `body` names the fixed body that a disc overlaps, if there is one.
 std::string text_of(const Finding& finding, const SceneParameters& scene, const std::string& body,
                     std::int64_t step);
 

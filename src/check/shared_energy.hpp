@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Only collisions transfer energy. So discs that are linked by a step's collisions keep their total
-// energy, except for what effects take or give.
+// Checks the energy of clusters. Discs exchange energy only in collisions, so discs linked by a
+// step's collisions keep their total energy, except for what effects remove or add.
 #pragma once
 
 #include <optional>
@@ -11,26 +11,26 @@
 
 namespace carrom {
 
-/// A disc's squared speed before and after a step, or twice its energy. `allowance` is
-/// the part of it that effects may have added.
+/// A disc's squared speed, or twice its energy, before and after a step. `allowance`: energy of
+/// this kind that effects may have added.
 struct SharedEnergy {
     DiscId disc = 0;
     double before = 0, after = 0;
     double allowance = 0;
-    /// Reflections from fixed bodies at any angle, which round like collisions of pairs
+    /// Number of reflections from fixed bodies, whose rounding is that of pair collisions
     double n_reflections = 0;
 };
 
-/// A cluster of discs whose energy has changed: its lowest disc, the share by which it changed, and
-/// the bound.
+/// A cluster of discs whose energy has changed: its lowest disc, the relative change, and the bound
+/// on it.
 struct EnergyChange {
     DiscId disc = 0;
     double share = 0, bound = 0;
 };
 
-/// The worst of the clusters that `pairs` make of `discs`; none if each kept its energy to within
-/// the rounding of its collisions, 64 ulp for each disc and each collision. Discs of `pairs` that
-/// are not among `discs` do not count. With `may_fall` collisions may take any energy.
+/// Links `discs` by `pairs` to clusters and returns the worst one; none if each kept its energy to
+/// within 64 ulp for each disc and collision (rounding). Discs that are only in `pairs` are
+/// ignored. With `may_fall` collisions may lose any energy.
 std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> discs,
                                                 std::span<const std::pair<DiscId, DiscId>> pairs,
                                                 bool may_fall = false);

@@ -20,7 +20,7 @@ namespace carrom {
 
 namespace {
 
-/// One disc's part in a collision, sent to the rank that has its record.
+/// A collision of one disc, as sent to the rank that keeps the disc's record.
 struct Part {
     DiscId disc = 0;
     std::int64_t end_of_micro_step = 0;
@@ -34,7 +34,7 @@ bool is_finite(const DiscState& disc) {
            std::isfinite(disc.vy) && std::isfinite(disc.tau);
 }
 
-/// The disc in the box's coordinates: the stored state itself unless the frame moves.
+/// The disc in the box's coordinates; equal to the stored state if the frame is at rest.
 DiscState as_seen(const DiscState& disc, const Frame& frame, double time,
                   double micro_steps_since_sync) {
     if (!frame.is_moving || disc.has_departed()) return disc;
@@ -119,7 +119,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     record_speeds();
     const std::int64_t last_sync = micro_steps_done_ / scene_.sync_every * scene_.sync_every;
     for (std::size_t i = 0; i < known_.size(); ++i)
-        // These discs have flown straight since the sync.
+        // A sync has changed these velocities or let the disc in; its straight flight began there.
         if (were_rewritten() || (before_[i].disc.has_departed() && !known_[i].disc.has_departed()))
             known_[i].free_from = std::max(known_[i].free_from, last_sync);
     take_log(log);
@@ -213,8 +213,8 @@ Finding StateCheck::first_other_radius(std::span<const DiscState> own,
     return {};
 }
 
-/// Sends every disc to the rank that keeps its record. The `value` of a finding is how often the
-/// disc is owned.
+/// Sends every disc to the rank that keeps its record. The finding's `value` is the number of times
+/// that the disc is owned.
 Finding StateCheck::take_records(std::span<const DiscState> own, std::span<const double> spins,
                                  std::span<const DiscState> departed, const Frame& frame,
                                  double time) {
@@ -294,7 +294,7 @@ Finding StateCheck::first_wrong_count() const {
                                                then.disc.pair_collisions),
                    had_walls = static_cast<double>(now.walls),
                    had_pairs = static_cast<double>(now.pairs);
-        // `partner` is the number of the counter that differs
+        // `partner` is 0 for wall collisions, 1 for pair collisions
         if (walls != had_walls)
             return {Invariant::counters, now.owner, first_id_ + i, walls, had_walls, 0};
         if (pairs != had_pairs)
@@ -303,7 +303,7 @@ Finding StateCheck::first_wrong_count() const {
     return {};
 }
 
-/// Keeps the finding of the pair with the lowest ids.
+/// Keeps the overlapping pair with the lowest ids as the finding.
 void StateCheck::keep_lowest(Finding& first, const Suspect& s) {
     if (first.is_found == 0 || std::pair(s.p.id, s.q.id) < std::pair(first.disc, first.partner))
         first = {Invariant::overlap, s.owner, s.p.id, s.depth, s.bound, s.q.id};
@@ -330,8 +330,8 @@ Finding StateCheck::first_overlap(const LocalView& now) const {
     return first;
 }
 
-/// Finds out from the ranks that keep the records of the two discs when each disc last collided,
-/// and drops the pairs that the method explains.
+/// Gets the time when each disc last collided from the ranks that keep the records, and drops the
+/// pairs whose overlap the time-stepped method allows.
 Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
     for (const bool is_first : {true, false}) {
         std::vector<std::vector<Suspect>> out(static_cast<std::size_t>(communicator_.size()));
@@ -352,7 +352,7 @@ Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
                      dy = (s.q.y - s.p.y) + (s.q.vy - s.p.vy) * back;
         const double gap = std::hypot(dx, dy) - diameter_of(s.p, s.q);
         if (gap <= blur(8 * (1 + n_syncs_since(s.free_from))))
-            continue; // the pair overlapped before, or its contact is exactly at that time
+            continue; // the pair overlapped or touched when both discs became free
         keep_lowest(first, s);
     }
     return first;
@@ -365,7 +365,7 @@ int StateCheck::slab_of_disc(DiscId id) const {
 double StateCheck::blur(double n_ulps) const {
     constexpr double ulp = std::numeric_limits<double>::epsilon();
     const double time = ulp * static_cast<double>(
-                                  scene_.sync_every); // rounding of a time just before a sync
+                                  scene_.sync_every); // rounding error of a time just before a sync
     return n_ulps * ulp * scene_.box.longest() + 2 * fastest_ * time;
 }
 

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Holds a run to its invariants, step by step (CheckFailure lists them;
-// docs/understanding/hard-cases.md has the bounds).
+// Checks the invariants of a run at each step. CheckFailure lists the invariants,
+// docs/understanding/hard-cases.md has the bounds.
 //
-// It keeps a record of each disc at the last check, by id, so that a disc is compared
-// with itself whichever rank owns it. The log shows which discs have collided.
+// The check keeps a record of each disc at the last check, by id, so that a disc can be compared
+// with its earlier state although its owner changes. The log contains the collisions since then.
 //
-// In the time-stepped method discs may pass through each other. An overlap is allowed if the pair
-// was already closer than a diameter when both became free to collide. That is the end of the last
-// micro-step in which one of them collided, or the beginning of the check. From then on they flew
-// straight, so discs that were apart would have collided.
+// In the time-stepped method an overlap is allowed if the pair was already closer than a diameter
+// when both discs became free to collide. A disc becomes free at the end of the last micro-step in
+// which it collided, or at the beginning of the check. From then on both discs have flown straight,
+// so discs that were apart would have collided before they overlap.
 //
-// Effects are allowed for. Discs are compared as the box sees them. The check knows how they fall
-// and slow down, that discs of an ideal gas may overlap, and how much energy collisions take.
-// Growing discs push each other: the work is the impulse times the speed at which surfaces grow.
-// How much energy thermal and moving walls give is not known beforehand, so the energy of discs
-// that have met such a wall is not checked. Other walls give or take at most the impulse times
-// their largest speed. An acceleration that changes in time is seen from a frame that falls with
-// its changing part from the last inspection on: there it does nothing, and walls move. Discs that
-// have departed by open sides stay in the record. A departure is in the log, as a collision with a
-// wall without an impulse. So each disc is in the box or outside as its departures and its returns
-// by inlets say. The energy that a disc takes out of the box or brings in is not known, so neither
-// the disc's energy nor that of all discs is checked in such a step. Energies include masses and
-// spins. Price: 128 bytes a disc, every disc and collision sent once a
-// step, collisions to rank 0.
+// Effects are taken into account. Discs are compared in the box's coordinates. The check computes
+// how discs fall and slow down, lets discs of an ideal gas overlap, and knows how much energy
+// collisions lose. Growing discs push each other: the work is the impulse times the speed of the
+// surfaces. The energy from thermal and moving walls is unknown beforehand, so discs that met
+// such a wall have no energy check. Other walls give or take at most the impulse times their
+// largest speed. An acceleration that varies in time is treated in a frame that falls with its
+// varying part since the last inspection: in this frame it has no effect, but walls move. Discs
+// that have departed through open sides stay in the record. The log has each departure as a
+// collision with a wall without impulse. So departures and returns by inlets determine whether a
+// disc is in the box. The energy that departing and returning discs carry is unknown, so in such
+// a step neither their energy nor the total energy is checked. Energies include masses and spins.
+// Cost: 128 bytes a disc; in each step every disc and collision is sent once, and collisions to
+// rank 0.
 #pragma once
 
 #include <array>
@@ -46,28 +46,28 @@
 
 namespace carrom {
 
-/// Numbers along the own discs; empty in scenes without them.
+/// Numbers in the order of the own discs; empty in scenes without such numbers.
 struct CheckedColumns {
-    std::span<const double> spins{};         ///< per micro-step
-    std::span<const double> swapped_radii{}; ///< radii of discs that exchange them
-    /// The discs of this rank that have departed, which are not among the own ones
+    std::span<const double> spins{};         ///< spins per micro-step
+    std::span<const double> swapped_radii{}; ///< present radii, if discs exchange radii
+    /// The departed discs of this rank, which are not among the own discs
     std::span<const DiscState> departed{};
 };
 
 class StateCheck {
 public:
-    /// Begins with the present state, which is taken as correct. `scene` must outlive this and have
-    /// the default arithmetic. `spins` of rough discs run along the discs, per micro-step.
-    /// **Collective.**
+    /// Begins with the present state, which is taken as correct. `scene` must outlive this object
+    /// and use the default arithmetic. `spins` of rough discs, per micro-step, are in the order of
+    /// the discs. **Collective.**
     StateCheck(const SceneParameters& scene, const SpeciesTable& species,
                std::span<const DiscState> own, std::int64_t micro_steps_done,
                const Communicator& communicator, const Frame& frame = {}, double time = 0,
                std::span<const double> spins = {}, double energy_given = 0);
 
-    /// Inspects the end of a step. `log` has this rank's share of the collisions since the last
-    /// inspection. If an invariant is broken every rank throws the same CheckFailure.
-    /// `work_of_images` is what Engine::add_work_to has found since then on this rank,
-    /// `energy_given` is Engine::energy_given, then and now. **Collective.**
+    /// Checks the state at the end of a step. `log` has this rank's share of the collisions since
+    /// the last inspection. If an invariant is broken, every rank throws the same CheckFailure.
+    /// `work_of_images`: work on this rank since then (Engine::add_work_to). `energy_given`:
+    /// Engine::energy_given. **Collective.**
     void inspect(const LocalView& now, std::int64_t micro_steps_done,
                  std::span<const Collision> log, const CheckedColumns& columns = {},
                  double work_of_images = 0, double energy_given = 0);
@@ -77,11 +77,11 @@ private:
         DiscState disc;
         double spin = 0;
         std::int64_t free_from =
-            0; ///< the end of the last micro-step with a collision, or the check's begin
+            0; ///< end of the last micro-step with a collision, or start of the check
         std::uint64_t walls = 0, pairs = 0; ///< collisions of the disc since the last inspection
-        std::uint64_t departures = 0;       ///< of these with walls, those that are departures
-        double wall_impulse = 0;            ///< total impulse of these collisions
-        double work = 0; ///< work of growing surfaces in these collisions, per micro-step
+        std::uint64_t departures = 0;       ///< departures, which are included in `walls`
+        double wall_impulse = 0;            ///< total impulse from walls
+        double work = 0; ///< work of growing surfaces on this disc, per micro-step
         int owner = -1;
     };
     struct Suspect {
@@ -92,24 +92,24 @@ private:
     };
     using Log = std::span<const Collision>;
 
-    /// Turns the first finding of all ranks into a failure. Does nothing if there is
-    /// none. **Collective.**
+    /// Throws CheckFailure with the first finding of all ranks. Does nothing if there is no
+    /// finding. **Collective.**
     void fail_if_found(const Finding& mine, Log log);
     std::vector<SceneDisc> discs_before() const;
 
     Finding first_other_radius(std::span<const DiscState> own,
                                std::span<const double> swapped_radii) const;
     Finding first_not_finite(std::span<const DiscState> own, std::span<const double> spins) const;
-    /// `departed` are further discs of this rank.
+    /// `departed`: discs of this rank that have left the box.
     Finding take_records(std::span<const DiscState> own, std::span<const double> spins,
                          std::span<const DiscState> departed, const Frame& frame, double time);
     void take_log(Log log);
     Finding first_out_of_place(const LocalView& now) const;
     Finding first_wrong_departure() const;
     double from_departure(const DiscState& disc) const;
-    /// How often the disc has come in since the last inspection.
+    /// How often the disc has returned into the box since the last inspection.
     double returns_of(std::size_t i) const;
-    /// Whether the disc has left or come in since then, or was outside all the time.
+    /// Whether the disc has departed or returned since the last inspection, or was outside before.
     bool was_outside(std::size_t i) const {
         return known_[i].departures > 0 || before_[i].disc.has_departed() ||
                known_[i].disc.has_departed();
@@ -144,7 +144,7 @@ private:
     double work_of_walls(const Known& known) const;
     double work_of_walls() const;
     Extent walls_before() const;
-    /// The share of energy that drag has left since the last check, and the time since then.
+    /// The fraction of the energy that drag has left since the last check; the time since then.
     double energy_left() const;
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
     double n_syncs_since(std::int64_t micro_step) const {
@@ -161,29 +161,29 @@ private:
     bool may_have_met_seam(std::size_t i) const;
 
     int slab_of_disc(DiscId id) const;
-    /// The position error by rounding: `n_ulps` ulp of the box length, plus the flight during a
-    /// rounding error of the time.
+    /// The rounding error of positions: `n_ulps` ulp of the box length, plus the flight during the
+    /// rounding error of a time.
     double blur(double n_ulps) const;
 
     const SceneParameters& scene_;
     Effects effects_; ///< times in micro-steps
     FixedBodies fixed_bodies_;
     SpeciesTable species_;
-    /// Motion by an acceleration that changes in time, since the last inspection
+    /// Motion since the last inspection due to an acceleration that changes in time
     std::array<Swayed, 2> swayed_{};
     double total_mass_ = 0, smallest_mass_ = 1;
     /// Largest speed of oscillating walls, and their largest acceleration towards a disc
     double wall_speed_ = 0, wall_pull_ = 0;
-    double work_of_images_ = 0; ///< work on this rank since the last inspection
+    double work_of_images_ = 0; ///< work of images on this rank since the last inspection
     /// Largest speed along y of the discs between sheared sides, now or at the last inspection
     double fastest_up_ = 0;
-    /// Energies besides the kinetic one, without those that change at syncs only.
+    /// Energies besides the kinetic one, except those that change only at syncs.
     std::vector<OtherEnergy> energies_;
-    /// Energies, or the work on a disc's way, depend on these coordinates
+    /// Whether other energies, or the work along a disc's path, depend on x and on y
     bool depends_on_x_ = false, depends_on_y_ = false;
     bool may_lose_energy_ = false, walls_give_energy_ = false, surfaces_give_energy_ = false;
     bool have_open_sides_ = false, have_inlets_ = false;
-    bool surfaces_rub_ = false; ///< walls or fixed bodies rub, so spins change there
+    bool surfaces_rub_ = false; ///< walls or fixed bodies have friction, which changes spins
     bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< see CheckAllowance
     /// Energy that effects at syncs gave on this rank, now and at the last inspection
     double energy_given_ = 0, energy_given_before_ = 0;
@@ -194,7 +194,7 @@ private:
     std::vector<Known> known_, before_;
     std::int64_t micro_steps_done_ = 0, micro_steps_before_ = 0;
     double tolerance_ = 0, fastest_ = 0,
-           energy_ = 0; ///< total energy, which limits the speed of plain discs
+           energy_ = 0; ///< energy of all discs, which limits the speed of plain discs
     /// Collisions of pairs on all ranks since the check began
     std::uint64_t n_pair_collisions_ = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks motion and energy: of a disc between its collisions, of discs that a step's collisions
-// link, and of all discs.
+// Checks the motion and energy of single discs between collisions, and the energy of discs that a
+// step's collisions link, and of all discs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +19,7 @@ namespace carrom {
 
 namespace {
 
-/// Relative bounds of speeds that falls and drag change from sync to sync.
+/// Relative bounds of the errors of speeds and energies.
 constexpr double motion_bound = 1e-13;
 constexpr double energy_bound = 1e-12;
 constexpr double energy_bound_per_collision = 32 * 0x1p-53;
@@ -28,7 +28,7 @@ constexpr double energy_bound_per_collision = 32 * 0x1p-53;
 
 Finding StateCheck::find_velocity_change() const {
     if (were_rewritten()) return {};
-    const bool is_free = effects_.are_flights_free(); // no effect changes velocities in this case
+    const bool is_free = effects_.are_flights_free(); // flights without effects keep velocities
     const FallingFrame flight(effects_);
     const double time = flight.clock_at(stretch()), left = flight.slowing_at(time);
     const Acceleration& pull = flight.acceleration();
@@ -49,7 +49,7 @@ Finding StateCheck::find_velocity_change() const {
         const double seam = effects_.periods(scene_.box).speed;
         double wx = disc.vx - (then.vx * left + pull.x * time + swayed_[0].speed);
         const double wy = disc.vy - (then.vy * left + pull.y * time + swayed_[1].speed);
-        if (seam != 0) // the disc has the velocity of its image in the box
+        if (seam != 0) // the disc came through the seam: it has its image's velocity
             wx += seam * std::round((then.y + then.vy * time - disc.y) / scene_.box.y);
         const double bound = seam != 0 ? motion_bound *
                                              (std::sqrt(squared_speed_of(then)) + std::fabs(seam))
@@ -90,25 +90,25 @@ Finding StateCheck::first_other_energy(std::span<const DiscState> own, Log log) 
     }
     const Finding of_all = first_other_total(own, mine);
     if (finding.is_found == 0) finding = of_all;
-    // the energy is checked by the records of discs, not by the owner of one of them
+    // ranks that keep records check the energy, so no owner is known
     if (finding.is_found == 1) finding.rank = -1;
     return finding;
 }
 
-/// Checks the energy of all discs since the check began, or since the last check if effects take or
-/// give energy. **Collective.**
+/// Checks the energy of all discs against that at the check's start, or against the last check if
+/// effects take or give energy. **Collective.**
 Finding StateCheck::first_other_total(std::span<const DiscState> own,
                                       const std::vector<SharedEnergy>& mine) {
     if (walls_give_energy_ || surfaces_give_energy_) return {};
-    // The energy that effects gave at a sync has changed until now: an acceleration that changes in
-    // time moves the frame in which it is measured, and drag takes a part of it.
+    // Energy that effects gave at a sync changes until the check: an acceleration that varies in
+    // time moves the frame in which it was measured, and drag removes a part of it.
     if (acts_at_syncs_ && (effects_.acceleration().sways() || FallingFrame(effects_).slows()))
         return {};
     const double n = static_cast<double>(scene_.n_discs);
     const double bound = energy_bound + energy_bound_per_collision *
                                             (2 * static_cast<double>(n_pair_collisions_) / n);
     const bool sways = effects_.acceleration().sways();
-    std::size_t n_moved = 0; // discs that have left or come in
+    std::size_t n_moved = 0; // number of discs that departed or returned
     for (std::size_t i = 0; i < known_.size(); ++i)
         if (known_[i].departures > 0 || returns_of(i) > 0) ++n_moved;
     const double energy = energy_of(own, sways);
@@ -138,12 +138,12 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
     if (have_open_sides_ && communicator_.any(n_moved > 0)) return {};
     const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
     if (!(scale > 0) || drift <= allowed || known_.empty() || std::isinf(expected)) return {};
-    // No disc is to blame, so the lowest disc that collided is reported.
+    // No single disc is the cause, so the lowest disc that collided is reported.
     return {Invariant::energy, 0, mine.empty() ? first_id_ : mine.front().disc, drift / scale,
             allowed / scale};
 }
 
-/// A disc's energy before and after, with allowances for what effects can add.
+/// A disc's energy before and after the step, with the energy that effects may have added.
 SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     const Known& known = known_[i];
     SharedEnergy energy = {first_id_ + i,
@@ -151,7 +151,7 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
                            twice_energy(in_swaying_frame(known.disc), known.spin)};
     energy.allowance = resting_gain(known) + 2 * work_of_walls(known);
     energy.before += 2 * energy_of_way(i);
-    if (surfaces_give_energy_) { // surfaces are exact except for rounding
+    if (surfaces_give_energy_) { // work of growing surfaces is exact except for rounding
         energy.before += 2 * known.work;
         energy.allowance += 2 * known.work * blur(64) / species_.of(energy.disc).radius;
     }
@@ -164,11 +164,11 @@ SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     return energy;
 }
 
-/// Whether a disc may have met an image beyond the seam, or come through the seam. An image gives
-/// energy to discs that collide with it, and a disc that comes through the seam gets another
-/// velocity. The energy of all discs together is checked (first_other_total), but not the energy of
-/// such a disc. During a step collisions may make a disc up to four times as fast as any disc is at
-/// its ends.
+/// Whether a disc may have met an image beyond the seam of sheared sides, or crossed the seam. In
+/// a collision an image gives energy to the disc, and a crossing changes the disc's velocity. So
+/// this disc's energy is not checked, but the total energy is (first_other_total). Collisions
+/// during a step may make a disc up to four times as fast as the fastest disc at the step's start
+/// or end.
 bool StateCheck::may_have_met_seam(std::size_t i) const {
     if (!effects_.are_sheared()) return false;
     const double near = 4 * fastest_up_ * stretch() + 2 * scene_.radius;
@@ -184,8 +184,8 @@ double StateCheck::work_of(const Collision& collision) const {
                              radii);
 }
 
-/// Updates the bounds of speeds if effects make discs faster, and the motion of the falling frame
-/// under an acceleration that changes. **Collective.**
+/// Updates the bounds of speeds, if effects make discs faster. If the acceleration varies in time,
+/// updates the motion of the falling frame. **Collective.**
 void StateCheck::record_speeds() {
     if (!scene_.effects.are_any()) return;
     swayed_ = Sway::between(effects_.acceleration(), static_cast<double>(micro_steps_before_),
@@ -201,7 +201,7 @@ void StateCheck::record_speeds() {
     fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)) + wall_speed_);
 }
 
-/// The largest energy of position for a mass of 1, for effects that act all the time.
+/// The largest potential energy of a mass of 1, from effects that act all the time.
 double StateCheck::largest_energy_of_place() const {
     double sum = 0;
     for (const OtherEnergy& energy : energies_)
@@ -217,8 +217,8 @@ double StateCheck::other_energy(const DiscState& seen, double spin) const {
     return sum;
 }
 
-/// Energies of position are counted from a low level, so that the rounding of positions is small
-/// compared with them.
+/// Potential energies are measured from a low level, because their rounding errors are then
+/// small.
 double StateCheck::twice_energy(const DiscState& seen, double spin) const {
     const double mass = mass_of(seen.id);
     return mass * squared_speed_of(seen) +
@@ -233,8 +233,8 @@ DiscState StateCheck::in_swaying_frame(const DiscState& seen) const {
     return disc;
 }
 
-/// The energy that effects gave a disc along its path, besides changes of its energy of position,
-/// plus the jump of that energy at periodic sides. If the disc moves less than a quarter of the box
+/// Energy that a disc gained from effects on its path, except through its potential energy, plus
+/// the jump of that energy at periodic sides. If the disc moves less than a quarter of the box
 /// between two inspections, the number of crossings is known; otherwise the result is infinite.
 double StateCheck::energy_of_way(std::size_t i) const {
     if (!depends_on_x_ && !depends_on_y_) return 0;
@@ -254,7 +254,7 @@ double StateCheck::energy_of_way(std::size_t i) const {
            work_on_way(effects_, {unwrapped.x - then.x, unwrapped.y - then.y, species_.of(now.id)});
 }
 
-/// A disc that is pulled to a wall leaves it with a least speed (ContactGuard::least_departure).
+/// Energy for discs that rest on a wall, which leave it with ContactGuard::least_departure.
 double StateCheck::resting_gain(const Known& known) const {
     const Acceleration g = effects_.acceleration();
     const double pull = std::max(g.largest_x(), g.largest_y());
@@ -264,16 +264,16 @@ double StateCheck::resting_gain(const Known& known) const {
     return 1.01 * body.mass * leaving * leaving * static_cast<double>(known.walls);
 }
 
-/// The largest energy that walls that swing have given or taken. A disc that arrives with v and
-/// leaves with v' gains m (v' - v) (v' + v) / 2. Relative to the wall it does not become faster, so
-/// this is the impulse times the wall's speed, minus the loss by restitution. The least speed of
-/// discs at rest is in resting_gain.
+/// The largest energy that vibrating walls have given to or taken from a disc. A disc that
+/// arrives with v and leaves with v' gains m (v' - v) (v' + v) / 2. Relative to the wall it
+/// gets no faster, so the gain is at most impulse times wall speed. resting_gain has the
+/// rest.
 double StateCheck::work_of_walls(const Known& known) const {
     return 1.01 * speed_of_walls() * known.wall_impulse / static_cast<double>(scene_.micro_steps);
 }
 
-/// The speed of walls that swing, and of all walls in a frame that falls from the last
-/// inspection on.
+/// The speed of vibrating walls. If the frame falls since the last inspection, all walls move in
+/// it.
 double StateCheck::speed_of_walls() const {
     const Acceleration g = effects_.acceleration();
     if (!g.sways()) return wall_speed_;
@@ -281,7 +281,7 @@ double StateCheck::speed_of_walls() const {
     return wall_speed_ + amplitude * std::min(stretch(), g.period / std::numbers::pi);
 }
 
-/// Summed over all discs. **Collective.**
+/// The sum of the work of walls over all discs. **Collective.**
 double StateCheck::work_of_walls() const {
     if (speed_of_walls() == 0) return 0;
     double work = 0;
@@ -293,7 +293,7 @@ double StateCheck::work_of_walls() const {
 
 double StateCheck::energy_left() const { return energy_left_by(effects_, stretch()); }
 
-/// In the scene's units. With effects the discs are as the box sees them.
+/// The total energy, in the scene's units. With effects it uses discs in the box's coordinates.
 double StateCheck::energy_of(std::span<const DiscState> own, bool in_swaying_frame) const {
     Totals totals;
     totals.n_discs = scene_.n_discs;
@@ -304,8 +304,8 @@ double StateCheck::energy_of(std::span<const DiscState> own, bool in_swaying_fra
             seen.push_back(in_swaying_frame ? this->in_swaying_frame(known.disc) : known.disc);
             spins.push_back(known.spin);
         }
-        // With sheared sides a sync changes stored velocities, and the engine sums up that change
-        // of energy. So the stored states are used.
+        // With sheared sides a sync changes stored velocities, and the engine has summed this
+        // change of energy. So the stored states are used here.
         if (!effects_.are_sheared()) own = seen;
     }
     const SpeciesTable* const species_table = effects_.species.empty() ? nullptr : &species_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks where discs are: in the box, in their domain and cell, clear of obstacles, or outside
-// after they have departed by an open side.
+// Checks positions of discs: in the box, in the domain and cell, clear of fixed bodies; or outside,
+// after a departure through an open side.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,8 +15,8 @@ namespace {
 
 double beyond(double low, double place, double high) { return std::max(low - place, place - high); }
 
-/// The places of centres of discs. Discs go through an open side until they are a radius outside;
-/// in the time-stepped method further, if they have collided in the same micro-step.
+/// The region in which centres may lie. Through an open side discs fly until they are a radius
+/// outside, or further in the time-stepped method, after a collision in the same micro-step.
 Extent room_in(const Extent& box, const Effects& effects, double radius, Method method) {
     const double outside = method == Method::time_stepped ? std::numeric_limits<double>::infinity()
                                                           : radius;
@@ -44,7 +44,7 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
         const double x = now.periods.x_of(disc, now.time), y = now.periods.y_of(disc, now.time);
         const DiscState seen = now.frame.in_box(disc, now.time);
         const double radius = species_.of(disc.id).radius * size_at(micro_steps_done_);
-        // In a periodic box the image's centre is in the box.
+        // In a periodic box the centre of the disc's image must lie in the box.
         const Extent room = room_in(box, effects_, radius, scene_.method);
         const double outside = std::max(
             now.periods.x != 0 ? beyond(0, x, now.periods.x)
@@ -63,7 +63,7 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
     return first.value_or(Finding{});
 }
 
-/// The distance of a departed disc from the line a radius outside the nearest open side.
+/// The distance between a departed disc and the nearest line a radius outside of an open side.
 double StateCheck::from_departure(const DiscState& disc) const {
     const double radius = species_.of(disc.id).radius;
     double least = std::numeric_limits<double>::infinity();
@@ -83,7 +83,7 @@ double StateCheck::returns_of(std::size_t i) const {
            is_outside(known_[i]);
 }
 
-/// `partner` is 1 if the number of departures and returns is wrong.
+/// In the finding, `partner` is 1 if the number of departures and returns is wrong, else 0.
 Finding StateCheck::first_wrong_departure() const {
     if (!have_open_sides_) return {};
     const bool may_return = have_inlets_ && n_syncs_since(micro_steps_before_) > 0;
@@ -99,8 +99,8 @@ Finding StateCheck::first_wrong_departure() const {
     return {};
 }
 
-/// In both methods a disc that would run into a fixed body within a micro-step stops
-/// there. `partner` is the fixed body.
+/// A disc may touch a fixed body but not enter it, because both methods stop it there. In the
+/// finding, `partner` is the fixed body.
 Finding StateCheck::first_in_fixed_body(const LocalView& now) const {
     if (!fixed_bodies_.are_any()) return {};
     const double bound = 2 * tolerance_ + blur(64);

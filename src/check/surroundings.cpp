@@ -12,19 +12,19 @@ namespace carrom {
 namespace {
 
 constexpr std::size_t most_around = 12;
-/// The largest number of partners in collisions that a rank reports
+/// The largest number of collision partners that each rank reports
 constexpr std::size_t most_struck = 6;
 constexpr DiscId nobody = ~DiscId{0};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Neighbour {
     SceneDisc of;
-    double order = infinity; ///< squared distance; negative for discs that must be included
+    double order = infinity; ///< squared distance; negative for discs that the list must contain
 };
 using Neighbours = std::array<Neighbour, most_around>;
 using Struck = std::array<DiscId, most_struck>;
 
-/// The discs that collided with one of the two, according to this rank's log.
+/// The discs that collided with `disc` or `partner`, according to this rank's log.
 Struck struck_by(DiscId disc, DiscId partner, std::span<const Collision> log) {
     Struck struck;
     struck.fill(nobody);
@@ -39,7 +39,7 @@ Struck struck_by(DiscId disc, DiscId partner, std::span<const Collision> log) {
     return struck;
 }
 
-/// The finding's discs, then their partners in collisions. **Collective.**
+/// The discs of the finding, then the discs that collided with them. **Collective.**
 std::vector<DiscId> wanted_discs(const Finding& finding, std::span<const Collision> log,
                                  const Communicator& communicator) {
     const bool has_partner = finding.invariant == Invariant::overlap;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the discs around one that breaks an invariant, enough for a scene that repeats it.
+// Finds discs around one that breaks an invariant, enough for a scene that reproduces the error.
 #pragma once
 
 #include <span>
@@ -13,15 +13,15 @@
 
 namespace carrom {
 
-/// A disc in the units of scenes: velocities per step, position in the box.
+/// A disc in scene units: velocity per step, position in the box.
 struct SceneDisc {
     InputDisc disc;
     double spin = 0;
 };
 
-/// Returns about a dozen discs in the order of ids: the finding's, the ones that collided with them
-/// in `log`, and the nearest ones. `discs` are this rank's share; those of rank `keeper` include
-/// the finding's disc. All ranks get the same list. **Collective.**
+/// Returns about a dozen discs in the order of ids: those of the finding, those that collided with
+/// them in `log`, and the nearest ones. `discs` are this rank's share; on rank `keeper` they
+/// include the finding's disc. All ranks get the same list. **Collective.**
 std::vector<SceneDisc> discs_around(const Finding& finding, std::span<const SceneDisc> discs,
                                     int keeper, std::span<const Collision> log,
                                     const Periods& periods, const Communicator& communicator);

@@ -17,11 +17,11 @@ double wrapped_angle(double angle) {
     const double rest = angle - turn * std::floor(angle / turn + 0.5);
     return rest > std::numbers::pi    ? std::numbers::pi
            : rest < -std::numbers::pi ? -std::numbers::pi
-                                      : rest; // rounding may exceed pi
+                                      : rest; // because rounding may exceed pi
 }
 
-/// The Taylor series of a quarter of the angle, whose next terms are below 2^-60; the angle is then
-/// doubled twice.
+/// Uses the Taylor series for a quarter of the angle, whose neglected terms are below 2^-60. The
+/// angle is then doubled twice.
 Direction direction_of(double angle) {
     const double x = angle / 4, square = x * x;
     double of_sine = 1, of_versine = 1; // sin(x) / x, and 2 (1 - cos(x)) / x^2
@@ -30,7 +30,7 @@ Direction direction_of(double angle) {
         of_versine = 1 - of_versine * square / ((n + 1) * (n + 2));
     }
     double sine = x * of_sine, versine = square * of_versine / 2;
-    for (int k = 0; k < 2; ++k) { // 1 - cos(2 x) = 2 sin^2(x) subtracts no nearly equal numbers
+    for (int k = 0; k < 2; ++k) { // 1 - cos(2 x) = 2 sin^2(x) has no cancellation
         const double cosine = 1 - versine;
         versine = 2 * sine * sine;
         sine = 2 * sine * cosine;

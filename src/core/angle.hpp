@@ -7,11 +7,11 @@
 
 namespace carrom {
 
-/// The angle in [-pi, pi], in radians, that differs from `angle` by whole turns.
+/// Maps an angle in radians into [-pi, pi] by adding or subtracting whole turns.
 double wrapped_angle(double angle);
 
-/// Cosine and sine of an angle in [-pi, pi], to within 2e-15. Fifty times faster than
-/// `rounded_sine`, whose last bit is correct, too.
+/// Cosine and sine of an angle in [-pi, pi], with errors below 2e-15. Fifty times as fast as the
+/// correctly rounded `rounded_sine`.
 Direction direction_of(double angle);
 
 /// A random angle, uniform in [-pi, pi).

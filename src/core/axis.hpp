@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two axes. Strips cut the box across its longer side, which is x in a square, and cells follow
-// each other along it. Code for strips and cells uses coordinates along that axis and across it, so
-// it is the same for both axes.
+// The two axes. The box is cut into strips across its longer side (x in a square), and cells are
+// ordered along this side. Code for strips and cells uses coordinates along it and across it, so
+// the code is the same for both axes.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ enum class Axis : std::size_t { x = 0, y = 1 };
 
 constexpr Axis other_axis(Axis axis) { return axis == Axis::x ? Axis::y : Axis::x; }
 
-/// The axis that strips cut.
+/// The axis along which strips follow each other.
 constexpr Axis longer_axis(const Box& box) { return box.y > box.x ? Axis::y : Axis::x; }
 
 template <class Number>
@@ -24,7 +24,7 @@ template <class Number>
 }
 constexpr double along(Axis axis, const Box& box) { return along(axis, box.x, box.y); }
 
-/// (x, y) as (along, across), and the reverse.
+/// Turns (x, y) into (along, across), and (along, across) into (x, y).
 template <class Number> constexpr std::pair<Number, Number> turned(Axis axis, Number x, Number y) {
     return axis == Axis::x ? std::pair(x, y) : std::pair(y, x);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A box in messages: "10", or "10 x 5". One format of numbers is used for both lengths.
+// The box in messages: "10", or "10 x 5". Both lengths use the same format of numbers.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ template <> struct fmt::formatter<carrom::Box> : fmt::formatter<double> {
 
 namespace carrom {
 
-/// "side 10", or "sides 10 and 5".
+/// The text "side 10", or "sides 10 and 5".
 inline std::string sides_text(const Box& box) {
     return box.is_square() ? fmt::format("side {}", box.x)
                            : fmt::format("sides {} and {}", box.x, box.y);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of discs that frames of a trajectory may have and no state stores, because they are
-// computed from the discs around. Scenes, trajectories and their readers use the table below. A new
-// field takes a line there, and its computation in `computed_numbers` (simulation/disc_order.hpp).
+// Numbers of discs that trajectories can contain but states do not store, because they are computed
+// from neighbouring discs. Scenes, trajectories and readers use the table below. A new field needs
+// a line there, and code in `computed_numbers` (simulation/disc_order.hpp).
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 namespace carrom {
 
 struct ComputedField {
-    const char* name;                   ///< in scenes, and in the trajectory
-    std::array<const char*, 2> columns; ///< names of its numbers in tables; null: there is but one
-    bool is_count;                      ///< whether it is a whole number
+    const char* name;                   ///< name in scenes and in the trajectory
+    std::array<const char*, 2> columns; ///< column names in tables; the second may be null
+    bool is_count;                      ///< whether its values are integers
 
     constexpr std::size_t width() const { return columns[1] ? 2 : 1; }
 };
@@ -21,7 +21,7 @@ inline constexpr std::array<ComputedField, 2> computed_field_table = {
     {{"psi6", {"psi6_real", "psi6_imaginary"}, false},
      {"neighbours", {"neighbours", nullptr}, true}}};
 
-/// Which fields are wanted, in the order of the table.
+/// For each field of the table, in order, whether the field is requested.
 using ComputedFieldSet = std::array<bool, computed_field_table.size()>;
 
 inline constexpr std::size_t n_computed_numbers = [] {

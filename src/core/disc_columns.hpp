@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disc's stored numbers by name, for files that keep them column by column.
+// A disc's stored numbers by name, for files that store each number as a column.
 //
-// A new number in the 64-byte state is one more line here. Image counts are not
-// stored, so they have no column.
+// Each number of the 64-byte state has one line in the table here. Image counts are not stored in
+// files, so they have no column.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace carrom {
 
-/// One number of 8 bytes for each disc: a double or a whole number.
+/// A column of numbers of 8 bytes, one for each disc: doubles or whole numbers.
 struct StateColumn {
     const char* name;
     const char* unit;
@@ -29,7 +29,7 @@ struct StateColumn {
 
 namespace columns {
 
-/// `Get(disc)` returns the number, `Set(disc, bits)` stores it.
+/// Makes a column; `Get(disc)` returns the number and `Set(disc, bits)` stores it.
 template <auto Get, auto Set>
 constexpr StateColumn make(const char* name, const char* unit, bool is_real) {
     return {name, unit, is_real,
@@ -52,9 +52,9 @@ template <auto Field> constexpr StateColumn make(const char* name, const char* u
 
 inline constexpr std::uint64_t all_of_counter = 0x7fffffffffff;
 
-/// Written in place of the time of a departed disc.
+/// Stored in place of the time of a departed disc.
 inline constexpr double departed_time = -1;
-/// Written in place of the time of a collision that happened exactly at a sync.
+/// Stored in place of the time of a disc that collided exactly at a sync.
 inline constexpr double collided_at_sync = -0.0;
 inline double stored_time(const DiscState& disc) {
     if (disc.has_departed()) return departed_time;

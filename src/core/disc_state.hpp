@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A disc's stored state: its position at its own time `tau`, and how often it has collided.
 //
-// Only the disc's own collisions and stops and the common sync rewrite the state
-// (docs/understanding/method.md, section 2). It fills one cache line, because the engine reads the
-// states of single discs at random places.
+// Only collisions and stops of the disc itself, and the sync of all discs, change this state
+// (docs/understanding/method.md, section 2). It fills one cache line, because the engine reads
+// states of single discs at random places in memory.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@
 
 namespace carrom {
 
-/// A disc's global number, 0 .. N-1. It breaks every tie in the total order.
+/// A disc's global number, 0 .. N-1. Events at equal times are ordered by these numbers.
 using DiscId = std::uint64_t;
 
-/// A disc's place in one rank's arrays. Never compared between ranks, never part of an order.
+/// A disc's index in the arrays of one rank. It must not affect the order of events.
 using LocalIndex = std::uint32_t;
 
 /// Lengths are in the scene's unit, velocities in lengths per micro-step, `tau` in micro-steps
-/// since the last sync. Counters have 47 bits: a disc that collides a million times a second
-/// reaches their end after four years.
+/// since the last sync. Counters have 47 bits, which is enough for four years of a million
+/// collisions of the disc per second.
 struct alignas(64) DiscState {
     double x = 0, y = 0;
     double vx = 0, vy = 0;
@@ -33,14 +33,14 @@ struct alignas(64) DiscState {
     DiscId id = 0;
     std::uint64_t wall_collisions : 47 = 0;
     std::uint64_t is_departed : 1 = 0; ///< set by depart()
-    std::int64_t image_x : 16 = 0; ///< the disc's image is this many box lengths away (image.hpp)
+    std::int64_t image_x : 16 = 0;     ///< image's displacement in box lengths (image.hpp)
     std::uint64_t pair_collisions : 47 = 0;
-    /// Whether the disc has collided since the last sync; only used if collisions may take energy
+    /// Whether it has collided since the last sync; used only if collisions may lose energy
     std::uint64_t has_collided : 1 = 0;
     std::int64_t image_y : 16 = 0;
 
-    /// The disc has left the box at (x, y) through an open side. It stays at rest there and takes
-    /// no further part in the simulation.
+    /// Marks the disc as departed: it has left the box at (x, y) through an open side, stays at
+    /// rest there, and no longer takes part in the simulation.
     void depart() {
         vx = vy = tau = 0;
         is_departed = 1;
@@ -50,16 +50,16 @@ struct alignas(64) DiscState {
     CARROM_DEVICE double x_at(double time) const { return x + vx * (time - tau); }
     CARROM_DEVICE double y_at(double time) const { return y + vy * (time - tau); }
 
-    /// Changes whenever the state is rewritten within a sync interval: every rewrite comes with a
-    /// collision.
+    /// A number that changes whenever the state changes within a sync interval, because each such
+    /// change counts a collision.
     CARROM_DEVICE std::uint32_t version() const {
         return static_cast<std::uint32_t>(wall_collisions + pair_collisions);
     }
 };
 static_assert(sizeof(DiscState) == 64);
 
-/// Many states. Resizing does not initialise the new elements: the caller writes each of them, or
-/// passes a value.
+/// A vector of states. Resizing does not initialise new elements, so the caller must write each of
+/// them or pass a value.
 using DiscStates = RawVector<DiscState>;
 
 CARROM_DEVICE inline double squared_speed_of(const DiscState& disc) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sum of doubles that does not depend on the order of its terms: 128-bit fixed point.
+// Sums doubles in 128-bit fixed point, so that the order of the terms does not matter.
 //
-// The unit is chosen from a bound on the total, so that the sum cannot overflow and each term loses
-// at most 2^-125 of that bound. Integer addition is associative: any split over threads and ranks
-// gives the same bits.
+// The unit follows from a bound on the total, so that the sum cannot overflow and each term is
+// wrong by at most 2^-125 of the bound. Addition of integers is associative, so any division among
+// threads and ranks gives the same bits.
 #pragma once
 
 #include <cmath>
@@ -13,8 +13,8 @@ namespace carrom {
 
 class ExactSum {
 public:
-    /// `bound` is at least the sum of the terms' magnitudes. It must be the same
-    /// number in all parts that are added together.
+    /// `bound` must be at least the sum of the terms' absolute values. Sums that are added together
+    /// must have the same bound.
     explicit ExactSum(double bound);
 
     void add(double term) {
@@ -27,14 +27,14 @@ public:
     /// Both sums must have the same bound.
     ExactSum& operator+=(const ExactSum& other);
     ExactSum& operator-=(const ExactSum& other);
-    /// Adds integers in the sum's unit.
+    /// Adds `units` times the sum's unit.
     void add_units(std::int64_t units) { sum_ += units; }
-    /// The number of units in 1: the inverse of the unit, or infinite.
+    /// The inverse of the unit; may be infinite.
     double scale() const { return scale_; }
     void clear() { sum_ = 0; }
     double value() const;
 
-    /// The two words of the raw sum, which ranks add with carries (see `add_words`).
+    /// The sum as two 64-bit words, which other ranks add with carries (see `add_words`).
     std::uint64_t low_word() const { return static_cast<std::uint64_t>(sum_); }
     std::uint64_t high_word() const { return static_cast<std::uint64_t>(sum_ >> 64); }
     void add_words(std::uint64_t low, std::uint64_t high);
@@ -49,14 +49,14 @@ private:
     double scale_ = 1; ///< 2^exponent_, or infinite
 };
 
-/// An empty sum with the same bound.
+/// Returns a sum of 0 with the same bound.
 inline ExactSum emptied(ExactSum sum) {
     sum.clear();
     return sum;
 }
 
 #ifdef _OPENMP
-// Threads sum parts, as they do with numbers.
+// Lets OpenMP reduce these sums over threads, as it does with numbers.
 #pragma omp declare reduction(+ : ExactSum : omp_out += omp_in)                                    \
     initializer(omp_priv = emptied(omp_orig))
 #endif

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The time integral of v_a v_b over one disc's flight, in the coordinates of the box.
 //
-// Between collisions a stored velocity v is constant, and the velocity in the box follows from it
-// by the laws of falling and drag (core/frame.hpp). So the integral since the last sync is a known
-// function of v and time: weight (v + shift)_a (v + shift)_b + rest_a rest_b, and more_y^2 for yy
-// where the acceleration turns. If syncs change no velocity the integral may extend over many of
-// them.
+// Between collisions a stored velocity v is constant, and the velocity in the box follows from v by
+// the laws of falling and drag (core/frame.hpp). So the integral since the last sync is a known
+// function of v and time: weight (v + shift)_a (v + shift)_b + rest_a rest_b, and an additional
+// more_y^2 for yy if the acceleration turns. If syncs change no velocities, the integral may extend
+// over many syncs.
 //
-// The integral over a path with collisions is then a sum over events. A collision at time t that
-// changes v into v' adds the integral up to t with v and subtracts the integral up to t with v'.
-// Before the integral begins again, its value for the whole time is added.
+// For a path with collisions the integral is a sum over events. A collision at time t that changes
+// v into v' adds the integral up to t for v and subtracts that integral for v'. When the integral
+// is restarted, its value for v over the whole time is added.
 #pragma once
 
 namespace carrom {
 
-/// Times are micro-steps. Without falls and drag `weight` is the time since the integral began,
-/// and all else is 0.
+/// Times are in micro-steps. Without falling and drag `weight` is the time since the integral
+/// began, and all other members are 0.
 struct FlightIntegral {
     double weight = 0;
     double shift_x = 0, shift_y = 0;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The frame of reference of stored states, as seen from the box.
+// The frame of reference in which states are stored, relative to the box.
 //
-// Where discs fall, states are stored in a frame that falls freely from each sync on. Under drag
-// they are stored in a clock that slows down as discs do. In this frame they fly straight at
-// constant speed, so contacts of pairs need neither falls nor drag. In a periodic box stored states
-// fly on when a disc leaves it, and the box sees the image that is in it. Without these effects the
-// frame is the box's, and nothing is computed.
+// If discs fall, states are stored in a frame that falls freely since the last sync. Under drag,
+// times are stored on a clock that slows down as the discs do. In this frame discs fly straight at
+// constant speed, so contacts of pairs need neither falling nor drag. In a periodic box stored
+// positions may leave the box, and the disc's image is in the box. Without these effects the frame
+// is that of the box, and nothing is computed.
 #pragma once
 
 #include "core/disc_state.hpp"
@@ -15,7 +15,7 @@ namespace carrom {
 
 struct Frame {
     bool is_moving =
-        false; ///< or has a clock of its own, or positions have to be brought into a periodic box
+        false; ///< whether stored states differ from states in the box: by motion, clock or image
     double x = 0, y = 0;   ///< position of the frame's origin in the box
     double vx = 0, vy = 0; ///< the frame's velocity, per micro-step
     double slowing = 1;    ///< rate of the frame's clock relative to the box's
@@ -26,8 +26,8 @@ struct Frame {
         return vx == 0 && vy == 0 && slowing == 1 && !periods.are_moving();
     }
 
-    /// The disc at the frame's time `time`, as the box sees it. A disc that has left
-    /// the box is already stored as the box sees it.
+    /// The disc in the box's coordinates, at the time `time` on the frame's clock. States of
+    /// departed discs are already stored in the box's coordinates.
     DiscState in_box(const DiscState& stored, double time) const {
         if (stored.has_departed()) return stored;
         DiscState disc = stored;

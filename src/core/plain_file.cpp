@@ -19,7 +19,7 @@ std::ifstream failed_stream() {
     return stream;
 }
 
-/// Why an open file cannot be read as a plain file.
+/// The reason why an open file is not a readable plain file; empty if it is.
 OpenProblem problem_of(int number) {
     struct stat status{};
     if (number < 0 || ::fstat(number, &status) != 0)
@@ -42,7 +42,7 @@ std::ifstream open_plain_file(const std::string& path, OpenProblem& problem) {
     problem = is_socket ? OpenProblem{"is not a plain file", false, true} : problem_of(number);
     std::ifstream stream;
     if (problem.text.empty()) {
-        // Opens the handle that was tested, because another file may have taken the name by now.
+        // Opens the tested handle, because the name may belong to another file by now.
         stream.open("/proc/self/fd/" + std::to_string(number), std::ios::binary);
         if (!stream) problem = {"cannot be opened: " + std::generic_category().message(errno)};
     }

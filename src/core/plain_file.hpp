@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens a file for reading whose name comes from a user or a folder. Anything except a plain file
-// is an error, because a pipe without a writer would make the open wait for ever.
+// Opens files for reading whose names come from a user or a folder. Only plain files are accepted,
+// because opening a pipe without a writer would wait for ever.
 #pragma once
 
 #include <fstream>
@@ -8,15 +8,15 @@
 
 namespace carrom {
 
-/// Why a stream could not be opened, for messages; empty if it was.
+/// The reason why a file could not be opened, for messages; empty if it could be opened.
 struct OpenProblem {
     std::string text;
-    /// The path is not a plain file, but a folder; or a pipe, a device or a socket
+    /// Whether the path is a folder; whether it is a pipe, a device or a socket
     bool is_folder = false, is_special = false;
 };
 
-/// Opens a plain file for reading as bytes. Otherwise the stream has failed, and `problem` says
-/// why. Never waits.
+/// Opens a plain file for reading bytes, without waiting. If that fails, the stream's fail bit is
+/// set and `problem` has the reason.
 std::ifstream open_plain_file(const std::string& path, OpenProblem& problem);
 std::ifstream open_plain_file(const std::string& path);
 

@@ -21,7 +21,7 @@ std::string printable(std::string_view text, bool keeps_lines) {
         const auto byte = static_cast<unsigned char>(text[i]);
         const unsigned char next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1])
                                                        : 0;
-        // U+0080 to U+009F are control characters too: in UTF-8, C2 and a byte from 80 to 9F.
+        // U+0080 to U+009F are control characters, too: byte C2 in UTF-8, then a byte 80 to 9F.
         const bool is_wide = byte == 0xc2 && next >= 0x80 && next <= 0x9f;
         const bool is_control = byte < 0x20 || byte == 0x7f;
         if (is_wide) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes text from files safe to print. It may contain any bytes, and a terminal takes some of them
-// as commands.
+// Makes text from files safe to print. Such text may contain any bytes, and a terminal executes
+// some of them as commands.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// Replaces each control character by an escape, such as \x1b. Ends of lines are kept
-/// if `keeps_lines`. Other bytes stay as they are, UTF-8 or not.
+/// Replaces each control character by an escape such as \x1b, except ends of lines if
+/// `keeps_lines`. All other bytes stay unchanged, even if they are not valid UTF-8.
 std::string printable(std::string_view text, bool keeps_lines = false);
 
 } // namespace carrom

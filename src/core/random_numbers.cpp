@@ -29,7 +29,7 @@ Direction random_direction(DiscRandom& random) {
         const double y = 2 * random.uniform() - 1;
         const double square = x * x + y * y;
         if (square > 1 || square < 0x1p-20)
-            continue; // the direction of a very short vector has few digits
+            continue; // very short vectors give an inaccurate direction
         const double length = std::sqrt(square);
         return {x / length, y / length};
     }
@@ -42,9 +42,9 @@ NormalPair random_normals(DiscRandom& random) {
 }
 
 double random_exponential(DiscRandom& random) {
-    // A first number x is followed by descending numbers, x >= u2 >= u3 >= ..., until one is
-    // larger. The index of that one is even with probability 1 - x + x^2/2! - ... = exp(-x). Each
-    // failure adds 1 to the whole part, so densities are exp(-(1 + x)), ...
+    // A first number x is followed by numbers as long as these descend, x >= u2 >= u3 >= ... The
+    // index of the first larger number is even with probability 1 - x + x^2/2! - ... = exp(-x).
+    // Each failure adds 1 to the whole part, so the density becomes exp(-(1 + x)), and so on.
     for (double whole = 0;; whole += 1) {
         const double first = random.uniform();
         double last = first;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers by counter. Any rank can draw any disc's numbers, in any order, and gets the same
-// ones.
+// Random numbers from counters. Any rank can draw the numbers of any disc in any order, and gets
+// the same numbers.
 //
 // Philox4x64-10 (Salmon, Moraes, Dror and Shaw, SC 2011) with key (seed, purpose) and counter (id,
-// attempt, ...), so two purposes never use the same number. The words are turned into numbers with
-// + - * / and sqrt only, which have the same bits on every machine.
+// attempt, ...), so numbers for two purposes are independent. Words become numbers by + - * / and
+// sqrt only, which have the same bits on every machine.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace carrom {
 
-/// The purposes of numbers. The values are part of the promise that a seed always
-/// gives the same discs.
+/// What random numbers are used for. Never change a value, because a seed must always give the same
+/// discs.
 enum class Purpose : std::uint64_t {
     position = 1,
     shake = 2,
@@ -37,11 +37,11 @@ inline double unit_number(std::uint64_t word) { return static_cast<double>(word 
 /// One disc's endless sequence of numbers for one purpose.
 class DiscRandom {
 public:
-    /// Each `occasion` gives another sequence for the same disc.
+    /// `occasion` selects one of many independent sequences of the same disc.
     DiscRandom(std::uint64_t seed, Purpose purpose, DiscId id, std::uint64_t occasion = 0)
         : seed_(seed), purpose_(purpose), id_(id), occasion_(occasion) {}
 
-    double uniform(); ///< in [0, 1)
+    double uniform(); ///< uniform in [0, 1)
 
 private:
     std::uint64_t seed_;
@@ -53,20 +53,20 @@ private:
     std::array<std::uint64_t, 4> words_{};
 };
 
-/// A direction: uniform in the unit disc by rejection, then scaled to length 1 (Marsaglia 1972; no
-/// sine, no cosine).
+/// A unit vector of random direction: a point drawn uniformly in the unit disc by rejection, then
+/// scaled to length 1, which needs no sine or cosine (Marsaglia 1972).
 struct Direction {
     double x = 0, y = 0;
 };
 Direction random_direction(DiscRandom& random);
 
-/// A number from the exponential distribution of mean 1, by von Neumann's comparisons (J. von
-/// Neumann, Various techniques used in connection with random digits, 1951; G. E. Forsythe, Math.
-/// Comp. 26, 1972): no logarithm.
+/// A number from the exponential distribution of mean 1, without a logarithm, by von Neumann's
+/// comparisons (J. von Neumann, Various techniques used in connection with random digits, 1951; G.
+/// E. Forsythe, Math. Comp. 26, 1972).
 double random_exponential(DiscRandom& random);
 
-/// Two independent numbers from the normal distribution of mean 0 and variance 1: half the square
-/// of their distance from 0 is exponential, and the direction is uniform.
+/// Two independent numbers from the normal distribution of mean 0 and variance 1. Half of x^2 + y^2
+/// is exponentially distributed, and the direction of (x, y) is uniform.
 struct NormalPair {
     double x = 0, y = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vector of numbers or plain structs that does not fill new elements with zeros. Filling would be
-// done by the one thread that resizes, while the others wait, and would place the memory near that
-// thread's processor. Without it each thread first writes the elements that it uses.
+// A vector of numbers or plain structs that does not fill new elements with zeros. The one thread
+// that resizes would fill them while others wait, and the memory would lie near its processor.
+// Without filling, each thread is the first to write the elements that it uses.
 #pragma once
 
 #include <memory>
@@ -18,14 +18,14 @@ template <class T> struct RawAllocator : std::allocator<T> {
     template <class U> struct rebind {
         using other = RawAllocator<U>;
     };
-    /// Does nothing, because every element is assigned before it is read.
+    /// Does nothing, because the caller writes every element before reading it.
     template <class U> void construct(U*) {}
     template <class U, class... Arguments> void construct(U* place, Arguments&&... arguments) {
         ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
     }
 };
 
-/// `resize(n)` leaves new elements undefined, `resize(n, value)` sets them.
+/// `resize(n)` leaves new elements undefined; `resize(n, value)` sets each to `value`.
 template <class T> using RawVector = std::vector<T, RawAllocator<T>>;
 
 } // namespace carrom

@@ -12,13 +12,13 @@ struct Pair {
     double high = 0, low = 0;
 };
 
-/// The sum is exact if a is not smaller than b (Dekker, Numer. Math. 18, 224 (1971)).
+/// a + b without error, if |a| is at least |b| (Dekker, Numer. Math. 18, 224 (1971)).
 Pair sum_of_ordered(double a, double b) {
     const double sum = a + b;
     return {sum, b - (sum - a)};
 }
 
-/// The sum is exact (Knuth, The Art of Computer Programming 2, section 4.2.2).
+/// a + b without error (Knuth, The Art of Computer Programming 2, section 4.2.2).
 Pair exact_sum(double a, double b) {
     const double sum = a + b, b_part = sum - a;
     return {sum, (a - (sum - b_part)) + (b - b_part)};
@@ -43,8 +43,8 @@ Pair divide(Pair a, double b) {
 /// pi / 2 in three doubles: 161 bits.
 constexpr double half_pi[] = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54, -0x1.f1976b7ed8fbcp-110};
 
-/// The Taylor series of the sine of x if `first` is 1, of its cosine if it is 0. The next terms are
-/// below 2^-110 for |x| <= pi/4.
+/// The Taylor series of sin(x) if `first` is 1, of cos(x) if it is 0. Neglected terms are below
+/// 2^-110 for |x| <= pi/4.
 Pair series(Pair x, int first) {
     const Pair square = multiply(x, x);
     Pair sum{1, 0};
@@ -59,7 +59,7 @@ Pair series(Pair x, int first) {
 
 RoundedSine rounded_sine(double angle) {
     const double quarters = std::floor(angle / half_pi[0] + 0.5);
-    // A product with up to 5 quarters needs 3 more bits; `high` and `rest` together are exact.
+    // The product with up to 5 quarters needs 3 bits more than a double; high + rest is exact.
     const double high = quarters * half_pi[0], rest = std::fma(quarters, half_pi[0], -high);
     Pair x = exact_sum(angle, -high);
     x = add(x, {-rest, 0});

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sine and cosine that are rounded correctly, so they have the same bits on every processor and
-// with every C library. The usual C library is wrong by a little over half a unit in the last
-// place, by amounts that depend on the processor, so that one value in 700 differs.
+// Sine and cosine with correct rounding, so they have the same bits on every processor and with
+// every C library. C libraries have errors slightly over half a unit in the last place that depend
+// on the processor, so that one value in 700 differs.
 //
-// They are computed in pairs of doubles (some 100 bits). Price: about a microsecond.
+// The computation uses pairs of doubles (some 100 bits). Cost: about a microsecond.
 #pragma once
 
 namespace carrom {

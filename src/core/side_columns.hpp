@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of discs that are stored beside their 64-byte states, in runs whose dynamics need them.
+// Numbers of discs that are stored outside of the 64-byte states, if a run's dynamics need them.
 //
-// Engines send, sort and roll back all columns that are present, without knowing what they mean.
-// Scenes, checkpoints, restarts and recordings use the table below. A new column takes a name and a
-// line in the table. If effects need it, it takes a line in the function `side_columns_of` of
-// dynamics/effects.hpp. If collisions change it, it takes a line in the last function of this file.
-// A run without a column uses no memory and no time for it.
+// Engines send, sort and roll back all columns that a run has, whatever these mean. Scenes,
+// checkpoints, restarts and recordings use the table below. A new column needs a name and a line in
+// the table. If effects need the column, add a line to the function `side_columns_of` of
+// dynamics/effects.hpp; if collisions change it, add a line to the last function of this file. A
+// run without the column uses no memory and no time for it.
 #pragma once
 
 #include <algorithm>
@@ -25,11 +25,11 @@ inline constexpr auto n_side_columns = static_cast<std::size_t>(SideColumn::n_co
 struct SideColumnInfo {
     const char* name;  ///< name in checkpoints, and in scenes that give initial values
     const char* shown; ///< the column's name in recordings, tables and the fields of a trajectory
-    bool is_rate;      ///< a rate, which is stored per micro-step
-    /// The effects decide which runs have it; otherwise a run has it if initial values are given
+    bool is_rate;      ///< whether it is a rate, stored per micro-step
+    /// Whether effects decide which runs have it; else a run has it if initial values are given
     bool is_of_dynamics;
-    bool is_given;     ///< scenes may give initial values; such columns come first
-    const char* needs; ///< error message if initial values are given to discs without this column
+    bool is_given;     ///< whether scenes may give initial values; such columns come first
+    const char* needs; ///< error message if initial values are given in a run without this column
 };
 inline constexpr std::array<SideColumnInfo, n_side_columns> side_column_table = {
     {{"spin", "angular_velocity", true, true, true,
@@ -49,7 +49,7 @@ inline constexpr std::array<SideColumn, n_side_columns> all_side_columns = [] {
     return all;
 }();
 
-/// Number of columns that scenes may give first values for
+/// Number of columns for which scenes may give initial values
 inline constexpr std::size_t n_given_columns = static_cast<std::size_t>(
     std::count_if(side_column_table.begin(), side_column_table.end(),
                   [](const SideColumnInfo& info) { return info.is_given; }));
@@ -84,14 +84,14 @@ struct SideColumnSet {
     friend bool operator==(const SideColumnSet&, const SideColumnSet&) = default;
 };
 
-/// Values for a list of discs that is stored elsewhere. An absent column is empty.
+/// For each column the values of a list of discs, not owned; empty if the column is absent.
 using SideSpans = BySideColumn<std::span<const double>>;
 
-/// The columns that are present, each along the same list of discs.
+/// The columns that a run has; each holds one number for each disc of the same list.
 class SideColumns {
 public:
     SideColumns() = default;
-    /// A copy; columns without numbers are not present.
+    /// Copies the columns that have numbers; empty columns are absent.
     explicit SideColumns(const SideSpans& spans) {
         for (std::size_t k = 0; k < n_side_columns; ++k)
             if (!spans.values[k].empty())
@@ -111,7 +111,7 @@ public:
         return spans;
     }
 
-    /// Empty if the column is not present.
+    /// The numbers of a column; empty if the column is absent.
     std::vector<double>& operator[](SideColumn column) { return values_[place_of(column)]; }
     const std::vector<double>& operator[](SideColumn column) const {
         return values_[place_of(column)];
@@ -123,8 +123,8 @@ public:
         for_each([&](SideColumn column) { (*this)[column].resize(n, 0); });
     }
 
-    /// Copies for each i the numbers at `places[i]` of `from` to place i. `from` has these columns
-    /// and perhaps others.
+    /// Copies the numbers at `places[i]` of `from` to place i, for each i. `from` must have all of
+    /// these columns and may have more.
     void gather(const SideColumns& from, std::span<const LocalIndex> places) {
         for_each([&](SideColumn column) {
             std::vector<double>& values = (*this)[column];
@@ -132,8 +132,8 @@ public:
             for (std::size_t i = 0; i < places.size(); ++i) values[i] = from[column][places[i]];
         });
     }
-    /// Copies the numbers at place `source` of `from`, whose columns are among these, to place
-    /// `target`.
+    /// Copies the numbers at place `source` of `from` to place `target`. `from` has no columns that
+    /// are absent here.
     void copy(std::size_t target, const SideColumns& from, std::size_t source) {
         from.for_each([&](SideColumn column) { (*this)[column][target] = from[column][source]; });
     }
@@ -147,7 +147,7 @@ private:
     std::array<std::vector<double>, n_side_columns> values_;
 };
 
-/// The columns that collisions change under these dynamics, still without numbers.
+/// The columns that collisions change under these dynamics, without numbers.
 template <class Dynamics> SideColumns side_columns_of(const Dynamics& dynamics) {
     SideColumns columns;
     if (dynamics.has_spin()) columns.add(SideColumn::spin);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A fingerprint of a whole state. It does not depend on which rank owns a disc, nor on the order of
-// discs.
+// A fingerprint of a whole state. The owners and the order of discs do not affect
+// it.
 //
-// Each disc's record (id, position, velocity, local time, counters; -0 counts as +0) is hashed with
-// XXH3-128 and the hashes are added, so ranks and threads may add their shares in any order. Cost:
-// some 10 ns a disc.
+// The record of each disc (id, position, velocity, local time, counters; -0 counts as +0) is hashed
+// with XXH3-128. The hashes are added, so ranks and threads may add their shares in any order.
+// Cost: some 10 ns a disc.
 #pragma once
 
 #include <span>
@@ -19,11 +19,11 @@ namespace carrom {
 StateHash hash_of(const DiscState& disc);
 StateHash hash_of(std::span<const DiscState> discs);
 
-/// What a disc's number in a side column adds to the hash, if the run has that column.
+/// The part of the hash from a disc's number in a side column, if the run has that column.
 StateHash hash_of(SideColumn column, DiscId id, double number);
 
 #ifdef _OPENMP
-// Threads add parts, as they do with numbers.
+// Lets OpenMP reduce hashes over threads, as it does with numbers.
 #pragma omp declare reduction(+ : StateHash : omp_out += omp_in)
 #endif
 

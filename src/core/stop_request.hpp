@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A request to stop, as a signal handler records it, and the exception with which all ranks stop.
+// Records requests to stop, from signal handlers, and defines the exception that stops all ranks.
 //
-// A run stops between two steps. Work that takes too long for that ends inside: a start, or a step
-// that does not end within the patience. Ranks get signals at different times, so they must agree
-// before they throw.
+// A run normally stops between two steps. Work that takes too long after the request is abandoned:
+// a start, or a step that does not end within the patience. Ranks get signals at different times,
+// so they must agree before they throw.
 #pragma once
 
 #include <atomic>
@@ -27,15 +27,15 @@ inline bool is_stop_requested() {
     return stop_request::requested_at.load(std::memory_order_relaxed) != 0;
 }
 
-/// Whether the request is older than the patience, so that the present step should be abandoned.
-/// Costs one comparison as long as there is no request.
+/// Whether more time than the patience has passed since the request, so that the present step
+/// should be abandoned. Costs one comparison while there is no request.
 inline bool is_stop_overdue() { return is_stop_requested() && stop_request::has_patience_ended(); }
 
-/// Sets how long a step may still take after a request. It is a second unless this is called.
+/// Sets the patience: how long a step may take after a request. The default is a second.
 void set_stop_patience(double seconds);
 
-/// Thrown on every rank if a start or a step is abandoned because of a request. The simulation is
-/// then in no consistent state. Exit code 75.
+/// Thrown on every rank if a request has ended a start or a step inside. The simulation's state is
+/// then inconsistent. Exit code 75.
 class StopRequested : public CollectiveError {
 public:
     explicit StopRequested(const std::string& text) : CollectiveError(text, ExitCode::stopped) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wall-clock time, lap by lap.
+// Measures wall-clock time between calls.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How many threads are worth using for a number of discs.
+// The number of threads that is useful for a number of discs.
 #pragma once
 
 #include <algorithm>
@@ -7,11 +7,11 @@
 
 namespace carrom {
 
-/// With fewer discs a thread spends most of its time on copies of others' discs, or on waking and
-/// sleeping.
+/// With fewer discs a thread spends most of its time on copying discs of other threads, or on
+/// waking and sleeping.
 inline constexpr std::uint64_t least_discs_per_thread = 16;
 
-/// At most `n_threads`, at least one.
+/// The number of threads to use: at most `n_threads`, at least one.
 inline int useful_threads(int n_threads, std::uint64_t n_discs) {
     const std::uint64_t useful = std::max<std::uint64_t>(1, n_discs / least_discs_per_thread);
     return static_cast<int>(std::min(static_cast<std::uint64_t>(n_threads), useful));

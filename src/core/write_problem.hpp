@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why something cannot be written, and whether the path or the disk is at fault.
+// Why a file cannot be written, and whether the path or the disk is the cause.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@ namespace carrom {
 /// The reason why a file cannot be written; `text` is empty if it can.
 struct WriteProblem {
     std::string text;
-    bool is_failure = false; ///< the disk failed or rights are missing; otherwise the path is wrong
+    bool is_failure = false; ///< whether the disk or a right is the cause; else the path is wrong
 };
 
-/// A problem that consists of `what` and the system's words for `error`, an errno.
+/// A problem with the text `what`, followed by the system's message for `error` (errno).
 WriteProblem write_problem(const std::string& what, int error);
 
 } // namespace carrom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts of a box into the domains of ranks: equal areas at first, equal weights later.
+// Cuts the box into the domains of ranks: of equal areas at first, of equal work later.
 #pragma once
 
 #include <algorithm>
@@ -15,20 +15,20 @@
 
 namespace carrom {
 
-/// Domains of equal area, `group_sizes[k]` of them in strip k.
+/// Domains of equal areas; strip k is divided into `group_sizes[k]` domains.
 Domains equal_domains(const Box& box, Axis axis, const std::vector<int>& group_sizes);
 
-/// Sums of weights in equal bins of [0, length].
+/// Histogram of weights over [0, length] with equal bins.
 class WeightBins {
 public:
-    /// A sufficient number of bins to cut the weight into `n_parts` equal parts.
+    /// A number of bins that is sufficient to cut the weight into `n_parts` equal parts.
     static std::size_t n_for(int n_parts);
-    /// `weights` must outlive this.
+    /// `weights` must outlive this object.
     WeightBins(double length, std::span<std::uint64_t> weights)
         : length_(length), weights_(weights) {}
 
     void add(double place, std::uint64_t weight);
-    /// The cuts that divide the weight in proportion to `sizes`.
+    /// The cuts that divide the weight in proportion to `part_sizes`.
     std::vector<double> cuts(const std::vector<int>& part_sizes) const;
 
 private:
@@ -36,9 +36,9 @@ private:
     std::span<std::uint64_t> weights_;
 };
 
-/// Domains of about equal weights, `group_sizes[k]` of them in strip k. `for_each(visit)` calls
-/// visit(along, across, weight) for each of a rank's discs with its place in the box, and is
-/// called twice where strips are cut across. **Collective.**
+/// Domains of about equal weights; strip k is divided into `group_sizes[k]` domains.
+/// `for_each(visit)` calls visit(along, across, weight) for each of this rank's discs, with its
+/// position in the box. It is called twice if strips are cut across. **Collective.**
 template <class ForEach>
 Domains domains_of_equal_weights(const Communicator& communicator, const Box& box, Axis axis,
                                  const std::vector<int>& group_sizes, const ForEach& for_each) {
@@ -51,7 +51,7 @@ Domains domains_of_equal_weights(const Communicator& communicator, const Box& bo
     if (largest_group == 1) return Domains(std::move(strips));
     const std::size_t n_bins = WeightBins::n_for(largest_group);
     std::vector<std::uint64_t> of_strips(n_bins * group_sizes.size(), 0);
-    std::vector<WeightBins> bins; // for each strip, bins of weights across it
+    std::vector<WeightBins> bins; // for each strip, the weights across the strip
     for (std::size_t k = 0; k < group_sizes.size(); ++k)
         bins.emplace_back(along(other_axis(axis), box),
                           std::span(of_strips).subspan(k * n_bins, n_bins));

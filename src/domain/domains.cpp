@@ -10,13 +10,13 @@ namespace carrom {
 
 namespace {
 
-/// Limits for groups of ranks. With groups, a rank must have less than this share of the discs that
-/// it would have with whole strips. Its halo must also be smaller by this many discs. Copying them
-/// takes about as long as messages to six more neighbours.
+/// Limits for groups of ranks. With groups, a rank must have less than this share of the own and
+/// halo discs that it would have with whole strips. Its halo must also be smaller by this many
+/// discs, because copying so many takes as long as messages to six more neighbours.
 constexpr double worth_a_group = 0.95, least_saved = 600;
 
-/// The area of a rank's domain and halo divided by that of its domain, on average. Halos do not
-/// extend beyond walls.
+/// The mean over ranks of the area of domain and halo, divided by the area of the domain. Halos end
+/// at walls.
 double share_seen(const GroupNeeds& needs, int n_strips) {
     const double n_across = static_cast<double>(needs.n_ranks) / n_strips;
     const auto seen = [&](double length, double parts, bool is_periodic) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sends discs to their ranks at the start of a run, with little memory.
+// Sends discs to their owners at the start of a run, with little extra memory.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 namespace carrom {
 
 /// Moves each value to the rank `owner_of(place)`, where `place` is the index of a value that has
-/// not moved yet. Values are sent in rounds, and arriving values take the places of departed ones.
-/// If all were sent at once, every rank would need two or three times the memory of its discs.
+/// not been moved yet. Values are sent in rounds, and arriving values use the places of departed
+/// ones. Sending all values together would take two or three times the memory of the discs.
 /// **Collective.**
 template <class Values, class Owner>
 void hand_to_owners(const Communicator& communicator, Values& values, const Owner& owner_of) {
     using T = typename Values::value_type;
     constexpr std::size_t n_rounds = 32;
     const std::size_t n = values.size(), rank = static_cast<std::size_t>(communicator.rank());
-    std::vector<T> waiting; // values that still need a place, because more have arrived than left
+    std::vector<T> waiting; // arrived values without a place
     std::size_t n_kept = 0;
     for (std::size_t round = 0; round < n_rounds; ++round) {
         std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));

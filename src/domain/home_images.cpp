@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which images of its own discs a rank of a periodic box works with.
+// Chooses the images of own discs that a rank of a periodic box uses: those in the box.
 #include "domain/strip_discs.hpp"
 #include "domain/transfer_in_parts.hpp"
 
 namespace carrom {
 
-/// Gives each own disc the image that is in the box. A disc's companion gets the same image,
-/// although its position may differ. Discs far from all sides at the time of sorting still have the
-/// right image, because no frame may jump along a periodic axis (scene/rules.cpp).
+/// Gives each own disc the image that is in the box. The disc's state in `companion` gets the same
+/// image, although its position may differ. Discs that were far from all sides when they were
+/// sorted keep their image: no frame may jump along a periodic axis (scene/rules.cpp).
 void StripDiscs::set_home_images(double time, double farthest, DiscStates* companion) {
     const Inside inside = periods_.inside();
     const Inside inner{inside.x_low + farthest, inside.x_high - farthest, inside.y_low + farthest,
@@ -21,7 +21,7 @@ void StripDiscs::set_home_images(double time, double farthest, DiscStates* compa
             DiscState& disc = discs_[i];
             const Image image = image_of(disc);
             const bool is_at_home = inside.holds(periods_.x_of(disc, time),
-                                                 // The same for nearly all discs
+                                                 // True for nearly all discs
                                                  periods_.y_of(disc, time));
             if (is_at_home && !companion) continue;
             const Image home = is_at_home ? image : periods_.home(disc, time);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans of halos, halos that grow on some ranks only, and reports to the owners of halo discs.
+// Plans halos, extends the halos of some ranks, and reports halo discs to their owners.
 #include <algorithm>
 
 #include "core/errors.hpp"
@@ -17,8 +17,8 @@ TransferPlan StripDiscs::plan_of_halo(double time, const HaloDepth& depth) const
     return plan_halo(domains_, rank, own(), searched, time, depth, n_threads_);
 }
 
-/// Neighbours first report whether they need more halo. A pair of ranks exchanges discs only if one
-/// of them does.
+/// Neighbours first exchange whether they need more halo. A pair of ranks exchanges discs only if
+/// at least one of the two needs more.
 void StripDiscs::fetch_more_halo(double time, double beyond, double reach, bool wants) {
     if (has_no_halo()) return;
     const std::vector<int> near = halo_partners(domains_, communicator_.rank(), reach, periods_);
@@ -56,7 +56,7 @@ void StripDiscs::report_to_owners(std::span<const LocalIndex> of_halo,
     for (const HaloPart& part : more_halo_) report_part(part.plan, part.offsets, of_halo, reported);
 }
 
-/// Reports to the owners the discs that arrived with one part of the halo. **Collective.**
+/// Reports halo discs that belong to one part of the halo to their owners. **Collective.**
 void StripDiscs::report_part(const TransferPlan& plan, std::span<const std::size_t> offsets,
                              std::span<const LocalIndex> of_halo,
                              std::vector<LocalIndex>& reported) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans for periodic boundaries, where domains are also neighbours across the sides of the box, and
-// a rank is its own neighbour.
+// Plans transfers in boxes with periodic sides. There, domains are also neighbours across the sides
+// of the box, and a rank may be its own neighbour.
 #include <algorithm>
 #include <cmath>
 
@@ -11,11 +11,11 @@ namespace carrom {
 
 namespace {
 
-/// Lists of partners are made for distances that are larger by this share of a period, because
-/// images are rounded.
+/// Partners are listed for slightly larger distances, by this fraction of a period, because
+/// positions of images are rounded.
 constexpr double margin = 1e-9;
 
-/// The domain, limited to the box along periodic axes.
+/// The part of the domain that lies in the box, along periodic axes.
 Domain domain_in_box(const Domains& domains, int rank, const Periods& periods) {
     const auto cut = [](Strip& strip, double period) {
         if (period == 0) return;
@@ -28,14 +28,14 @@ Domain domain_in_box(const Domains& domains, int rank, const Periods& periods) {
     return domain;
 }
 
-/// Whether a position in one strip can be within `distance` of a position in the other one that is
-/// displaced by n periods.
+/// Whether a position in strip `a` can be within `distance` of a position in strip `b`, if strip
+/// `b` is displaced by `shift`.
 bool are_near(const Strip& a, const Strip& b, double distance, double shift) {
     return a.low - distance <= b.high + shift && a.high + distance >= b.low + shift;
 }
 
-/// Whether a position in one strip can be within `distance` of a position in the other one or of an
-/// image of it; if `is_beyond`, only of images beyond a side.
+/// Whether a position in strip `a` can be within `distance` of a position in strip `b` or of its
+/// images. If `is_beyond`, only images beyond a side count.
 bool are_near_images(const Strip& a, const Strip& b, double distance, double period,
                      bool is_beyond) {
     const double n_last = period == 0 ? 0 : std::ceil(distance / period) + 1;
@@ -45,23 +45,23 @@ bool are_near_images(const Strip& a, const Strip& b, double distance, double per
 }
 
 /// Whether a position in the domain of `rank_a` can be within the distances, along and across, of a
-/// position in the domain of `rank_b` or of its images. The order of the tests does not depend on
-/// which rank makes them, so both get the same result.
+/// position in the domain of `rank_b` or of its images. Both ranks get the same result, because the
+/// order of the tests is the same on both.
 bool are_near(const Domains& a, int rank_a, const Domains& b, int rank_b, double distance,
               double distance_across, const Periods& periods) {
     if (a.is_empty(rank_a) || b.is_empty(rank_b)) return false;
     const double period = periods.along(a.axis()),
                  period_across = periods.along(other_axis(a.axis()));
     const Domain from = domain_in_box(a, rank_a, periods), to = domain_in_box(b, rank_b, periods);
-    // If rows of boxes slide, any position across the axis can be beside any other one.
+    // If rows of boxes slide, any two positions along x may come to lie above each other.
     if (periods.are_moving() && are_near_images(from.along, to.along, distance, period, true))
         return true;
     return are_near_images(from.along, to.along, distance, period, false) &&
            are_near_images(from.across, to.across, distance_across, period_across, false);
 }
 
-/// The displacements by n periods that may bring `place` within `reach` of low .. high. It may
-/// contain a few more.
+/// The range of n for which a displacement by n periods may bring `place` to within `reach` of low
+/// .. high. The range may be slightly too large.
 struct Shifts {
     int first = 0, last = 0;
 
@@ -69,7 +69,7 @@ struct Shifts {
         if (period == 0) return;
         if (place - low < (1 - margin) * period - reach &&
             high - place < (1 - margin) * period - reach)
-            return; // nearly all discs return here, along at least one axis
+            return; // the case of nearly all discs, along at least one axis
         const double lowest = low - reach - margin * period,
                      highest = high + reach + margin * period;
         while (place + first * period < lowest) ++first;
@@ -98,7 +98,7 @@ TransferPlan plan_periodic_migration(const Domains& before, const Domains& domai
                                      const Periods& periods, int n_threads) {
     TransferPlan plan;
     const Axis axis = domains.axis();
-    const auto distance_along = [&](Axis of) { // no position is more than a period away
+    const auto distance_along = [&](Axis of) { // at most a period plus rounding
         const double period = periods.along(of);
         return period == 0 ? farthest : std::min(farthest, period) + margin * period;
     };

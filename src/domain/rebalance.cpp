@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves the cuts between domains, so that all ranks have equal work. Strips are cut first, by the
-// weights along their axis. Then each strip is cut across by the weights in it.
+// Moves the cuts between domains, so that all ranks get equal work. First the box is cut into
+// strips, by the work along the axis. Then each strip is cut across, by the work in the strip.
 //
-// A rank's work, including that of its halo, has been counted. It is divided among the rank's
-// discs: each gets the same part of the cost of discs, and a part of the cost of pairs in
-// proportion to the other discs in its cell. So a cut can pass through a cluster, and an error of
-// this estimate is counted and corrected at the next inspection. Price: one pass over the own
-// discs, or two, and sums of some thousand numbers for each direction and strip.
+// The work of a rank and its halo has been counted. It is divided among the rank's discs: each gets
+// the same part of the work for single discs, and a part of the work for pairs in proportion to the
+// number of other discs in its cell. So a cut can pass through a cluster. Errors of this estimate
+// appear in the next count and are then corrected. Cost: one or two passes over the own discs, and
+// sums of some thousand numbers for each direction and strip.
 #include <algorithm>
 
 #include "domain/domain_cuts.hpp"
@@ -15,7 +15,7 @@
 
 namespace carrom {
 
-/// Calls visit(disc, weight) for each own disc. Weights are whole numbers of units, at least one.
+/// Calls visit(disc, weight) for each own disc. A weight is a positive integer, in `unit`.
 template <class Visit>
 void StripDiscs::weigh(const RankWork& work, double unit, const Visit& visit) const {
     const auto of_disc = [&](double of_discs, double of_pairs) {
@@ -24,7 +24,7 @@ void StripDiscs::weigh(const RankWork& work, double unit, const Visit& visit) co
     const double n = static_cast<double>(std::max<std::size_t>(1, n_own_));
     const double of_discs = static_cast<double>(work.of_discs) / n,
                  of_pairs = static_cast<double>(work.of_pairs);
-    std::uint64_t n_pairs = 0; // each pair counts twice
+    std::uint64_t n_pairs = 0; // each pair is counted twice
     const auto for_each_cell = [&](const auto& act) {
         const GridGeometry& geometry = grid_.geometry();
         for (int column = 0; column < geometry.n_columns; ++column)
@@ -41,7 +41,7 @@ void StripDiscs::weigh(const RankWork& work, double unit, const Visit& visit) co
     }
     const double of_pair = of_pairs / static_cast<double>(n_pairs);
     for_each_cell([&](SlotRange cell) {
-        if (cell.begin == cell.end) return; // otherwise n_others would be negative
+        if (cell.begin == cell.end) return; // because n_others would be negative
         const double n_others = static_cast<double>(cell.end - cell.begin) - 1;
         const std::uint64_t weight = of_disc(of_discs, of_pair * n_others);
         for (std::uint32_t i = cell.begin; i < cell.end; ++i) visit(discs_[i], weight);

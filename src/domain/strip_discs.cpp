@@ -14,13 +14,13 @@ namespace carrom {
 
 namespace {
 
-/// Moving rows of boxes slide along x. Strips are then rows, so that only the first and the last
-/// one have moving images.
+/// The axis along which strips follow each other. Moving rows of boxes slide along x. Strips are
+/// then cut along y, so that only the first and the last strip have moving images.
 Axis cut_axis(const Box& box, const Periods& periods) {
     return periods.are_moving() ? Axis::y : longer_axis(box);
 }
 
-/// Converts the depth of halos from mean distances between discs to a length.
+/// The sizes of the groups of ranks. Halos' depths are converted from disc spacings to lengths.
 std::vector<int> group_sizes(const Box& box, const Periods& periods, int n_ranks,
                              std::uint64_t n_discs, const GroupChoice& choice) {
     if (choice.ranks_across) return groups_of(n_ranks, std::min(*choice.ranks_across, n_ranks));
@@ -37,14 +37,14 @@ std::vector<int> group_sizes(const Box& box, const Periods& periods, int n_ranks
     return choose_groups(needs);
 }
 
-/// The first domains. They have equal areas, unless discs are so clustered that a rank would get
-/// far more than the mean, and would have to store all of them before the first cuts by work.
-/// `owner_in(domains, disc)` and `place_of(disc)` are at the disc's own time. **Collective.**
+/// The first domains. They have equal areas, unless discs are so clustered that one rank would have
+/// to store far more discs than the mean before the first cuts by work. `owner_in(domains, disc)`
+/// and `place_of(disc)` use the disc's own time. **Collective.**
 template <class OwnerIn, class PlaceOf>
 Domains first_domains(const Communicator& communicator, const Box& box, const Domains& equal,
                       const std::vector<int>& group_sizes, std::span<const DiscState> discs,
                       const OwnerIn& owner_in, const PlaceOf& place_of) {
-    // Limit of the number of discs in the fullest domain relative to the mean
+    // Largest allowed number of discs in a domain, divided by the mean
     constexpr double most_crowded = 1.5;
     std::vector<std::uint64_t> counts(static_cast<std::size_t>(communicator.size()), 0);
     for (const DiscState& disc : discs) ++counts[owner_in(equal, disc)];
@@ -98,7 +98,7 @@ StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, DiscSta
     n_own_ = discs_.size();
 }
 
-/// The disc's position in the box, along the strips' axis and across it.
+/// The position in the box of the disc at `time`, along the strips' axis and across it.
 std::pair<double, double> StripDiscs::place_in_box(const DiscState& disc, double time) const {
     DiscState in_box = disc;
     in_box.x = disc.x_at(time);
@@ -109,8 +109,8 @@ std::pair<double, double> StripDiscs::place_in_box(const DiscState& disc, double
 
 void StripDiscs::set_departed_aside() {
     forget_halo();
-    // std::stable_partition allocates a buffer that is not aligned enough for discs, so this is a
-    // loop.
+    // A loop, because std::stable_partition allocates a buffer whose alignment is too small for
+    // discs.
     const auto has_departed = [](const DiscState& disc) { return disc.has_departed(); };
     std::copy_if(discs_.begin(), discs_.end(), std::back_inserter(departed_), has_departed);
     columns_.for_each([&](SideColumn column) {
@@ -128,7 +128,7 @@ void StripDiscs::set_departed_aside() {
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
 
-/// Ranks are those of the last migration, which the next one begins from.
+/// Each disc goes to its owner in the domains of the last migration, where the next one begins.
 void StripDiscs::take_back(std::span<const ReturningDisc> discs) {
     if (discs.empty()) return;
     forget_halo();
@@ -169,7 +169,7 @@ void StripDiscs::migrate(double time, double farthest, DiscStates* companion) {
     redistributed_domains_ = domains_;
 }
 
-/// Sends the values of the discs that leave, and appends the values of arriving discs.
+/// Moves the values of discs that leave to other ranks, and appends those of arriving discs.
 template <class Values> void StripDiscs::move_along(const TransferPlan& plan, Values& values) {
     Values arrived;
     transfer(exchange_, plan, values, arrived, n_threads_);
@@ -177,7 +177,7 @@ template <class Values> void StripDiscs::move_along(const TransferPlan& plan, Va
     values.insert(values.end(), arrived.begin(), arrived.end());
 }
 
-/// Discs that were far from the sides of the domain when they were sorted cannot have left it.
+/// Plans the migration. Discs far inside the domain when they were sorted are not searched.
 TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     const int rank = communicator_.rank();
     if (periods_.are_any())
@@ -189,7 +189,7 @@ TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
                           n_threads_);
 }
 
-/// Ascending ranges that hold all own discs outside of `inner` at the time of sorting.
+/// Ascending ranges that contain every own disc outside of `inner` at the time of sorting.
 std::vector<PlaceRange> StripDiscs::places_outside(const Inside& inner) const {
     if (!is_sorted_) return {{0, n_own_}};
     std::vector<PlaceRange> places;
@@ -258,7 +258,7 @@ void StripDiscs::fetch_halo(double time, double reach, DiscStates* companion) {
     }
     columns_.for_each([&](SideColumn column) { show(columns_[column]); });
     for (std::size_t& offset : halo_offsets_) offset += n_own_;
-    // Has the capacity of `discs_`, so that both lists are reallocated equally rarely
+    // With the capacity of `discs_`, both lists are reallocated equally rarely
     is_shown_.reserve(discs_.capacity());
     is_shown_.resize(n_own_, 0);
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {
@@ -303,7 +303,7 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed,
     });
 }
 
-/// Lists for each partner where the own discs among `changed` are in its halo.
+/// For each partner, lists the own discs among `changed` that are in the partner's halo.
 TransferPlan StripDiscs::plan_updates(std::span<const LocalIndex> changed) const {
     TransferPlan plan;
     plan.partners = halo_plan_.partners;
@@ -322,8 +322,8 @@ TransferPlan StripDiscs::plan_updates(std::span<const LocalIndex> changed) const
     return plan;
 }
 
-/// Copies the states that a partner has sent, whose discs begin at `offset` in the halo. Writes
-/// their indices to `updated`.
+/// Copies states that a partner has sent; the partner's discs begin at `offset` in the halo. Writes
+/// the indices of these discs to `updated`.
 void StripDiscs::take_updates(std::span<const Update> items, std::size_t offset,
                               std::span<LocalIndex> updated) {
 #pragma omp parallel for num_threads(n_threads_)                                                   \
@@ -354,7 +354,7 @@ bool StripDiscs::is_valid(double time) const {
                     redistributed_domains_.owner(along, across) == communicator_.rank();
     }
     communicator_.sum(sums);
-    std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, as for the expected sums
+    std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, as are the expected sums
     for (std::uint64_t id = 0; id < n_with_departed_; ++id) {
         id_sum += id;
         square_sum += id * id;

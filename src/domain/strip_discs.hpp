@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of one rank: its own, in the order of their cells, and behind them the halo that its
-// neighbours have sent. The rank owns a strip, or a part of one (domains.hpp). This class moves
-// discs between ranks: it migrates and sorts them, and fetches the halo.
+// The discs of one rank: its own discs, in the order of their cells, and behind them the halo that
+// neighbours have sent. The rank owns a strip or a part of a strip (domains.hpp). This class
+// migrates discs between ranks, sorts them, and fetches the halo.
 //
-// Which ranks exchange discs follows from cuts and bounds that all ranks know, so `farthest` and
-// `reach` must be the same on all ranks. Price: two passes over the own discs, and two messages to
-// each neighbour.
+// Cuts and bounds that all ranks know determine which ranks exchange discs, so `farthest` and
+// `reach` must be equal on all ranks. Cost: two passes over the own discs, and two messages to each
+// neighbour.
 #pragma once
 
 #include <cstdint>
@@ -26,22 +26,22 @@
 
 namespace carrom {
 
-/// How many ranks share a strip. It affects the cost only.
+/// Settings for the number of ranks that share a strip. They affect only the cost.
 struct GroupChoice {
     double halo_spacings = 0; ///< usual depth of halos, in mean distances between discs
     /// If unset, it is chosen from the halo's depth, the box and the number of ranks
     std::optional<int> ranks_across;
 };
 
-/// The work of a rank, in any unit that is the same on all ranks. Work for pairs of near discs,
-/// such as collisions, is counted separately, because it grows with the density around a disc.
+/// The work of a rank, in a unit that is the same on all ranks. Work for pairs of close discs, such
+/// as collisions, is counted separately, because it increases with the local density.
 struct RankWork {
     std::uint64_t of_discs = 0, of_pairs = 0;
 
     std::uint64_t all() const { return of_discs + of_pairs; }
 };
 
-/// A disc that comes back into the box, with its numbers in the columns that discs have.
+/// A disc that returns into the box, with its numbers in the side columns.
 struct ReturningDisc {
     DiscState state;
     double numbers[n_side_columns] = {};
@@ -49,43 +49,43 @@ struct ReturningDisc {
 
 class StripDiscs {
 public:
-    /// Takes discs in any distribution and gives them to the owners of equal domains.
-    /// In a periodic box own discs get the images in the box when they migrate, and
-    /// the halo has images of own discs, too. `columns` run along the discs; missing
-    /// numbers are 0. **Collective.**
+    /// Takes discs in any distribution and gives them to the owners of domains of equal area. In a
+    /// periodic box, migration gives own discs their images in the box, and the halo may contain
+    /// images of own discs. `columns` have the order of the discs; missing numbers are 0.
+    /// **Collective.**
     StripDiscs(const Communicator& communicator, const Box& box, DiscStates discs,
                const Periods& periods, SideColumns columns, int n_threads,
                const GroupChoice& choice);
 
-    /// Forgets the halo and sends each own disc to the rank whose domain holds it at `time`. No
-    /// disc has moved by more than `farthest` since the last migration. `companion` runs along the
-    /// own discs, or is null. **Collective.**
+    /// Drops the halo and sends each own disc to the rank whose domain contains it at `time`. No
+    /// disc may have moved by more than `farthest` since the last migration. `companion` holds a
+    /// second state of each own disc, in the same order, or is null. **Collective.**
     void migrate(double time, double farthest, DiscStates* companion);
 
-    /// Brings the own discs, and all arrays along them, into the order of their cells
-    /// at `anchor` (CellGrid::sort), without a halo. `companion`: see migrate.
+    /// Sorts the own discs, and all arrays with one element a disc, by cells at `anchor`
+    /// (CellGrid::sort); the grid then has no halo. `companion`: see migrate.
     void sort(const GridGeometry& geometry, double anchor, double time, double duration,
               DiscStates* companion);
-    /// Sorts into cells without flights.
+    /// Sorts the own discs into cells without storing flights.
     void sort_cells(const GridGeometry& geometry, double time);
 
-    /// Appends to the own discs those of other ranks within `reach` of the own domain at `time`,
-    /// and puts them into cells. The own discs have migrated and been sorted for the same time.
-    /// **Collective.**
+    /// Appends the discs of other ranks within `reach` of the own domain at `time` to the own
+    /// discs, and sorts them into cells. The own discs must have been migrated and sorted for the
+    /// same time. **Collective.**
     void fetch_halo(double time, double reach, DiscStates* companion);
 
-    /// Adds the discs within `reach` to the halos of those ranks that `want` it. Their halos hold
-    /// the discs within `beyond` already, which keep their places. Until discs are sorted again,
-    /// there are no updates. **Collective.**
+    /// Adds discs to the halos of ranks that pass `wants`, up to the distance `reach`. These halos
+    /// already hold all discs within `beyond`, which keep their indices. No updates can be sent
+    /// until discs are sorted again. **Collective.**
     void fetch_more_halo(double time, double beyond, double reach, bool wants);
 
-    /// Sends the new states of the own discs among `changed` to the ranks that have them in their
-    /// halo. Updates the own halo in the same way, and appends the places of its updated discs to
+    /// Sends new states of own discs in `changed` to the ranks that have these discs in their halo.
+    /// Receives new states for the own halo, and appends the indices of the updated halo discs to
     /// `updates`. **Collective.**
     void send_updates(std::span<const LocalIndex> changed, std::vector<LocalIndex>& updates);
 
-    /// `values` has one element for each own disc. Sends the values of discs in other ranks' halos,
-    /// and appends the values of this halo's discs. **Collective.**
+    /// Sends the elements of `values`, one for each own disc, that other ranks need for their
+    /// halos, and appends those of this rank's halo. **Collective.**
     template <class Values> void show(Values& values) {
         values.resize(n_own_);
         if (has_no_halo()) return;
@@ -94,13 +94,13 @@ public:
             transfer(exchange_, part.plan, values, values, n_threads_);
     }
 
-    /// Sends discs of the halo to their owners. Appends the own discs that other ranks have sent to
-    /// `reported`. **Collective.**
+    /// Reports the halo discs `of_halo` to their owners. Appends the own discs that other ranks
+    /// have reported to `reported`. **Collective.**
     void report_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
 
-    /// Moves the cuts so that all domains have equal shares of the `work` that ranks have done
-    /// lately, if the largest share exceeds the mean by more than the factor `above`. Discs count
-    /// where they are at `time`; the next migration moves them. **Collective.**
+    /// Moves the cuts so that all domains have equal work, if the largest `work` of a rank since
+    /// the last inspection exceeds the mean by more than the factor `above`. Discs count at their
+    /// positions at `time`; the next migration sends them. **Collective.**
     void rebalance(double time, double above, const RankWork& work);
 
     Population population() const { return {discs_, n_own_}; }
@@ -111,7 +111,7 @@ public:
     DiscStates& all() { return discs_; }
     std::span<const DiscState> own() const { return std::span(discs_).first(n_own_); }
     std::span<DiscState> own() { return std::span(discs_).first(n_own_); }
-    /// Numbers of all discs, own and halo.
+    /// Numbers in side columns of all discs, first own discs, then halo.
     SideColumns& columns() { return columns_; }
     const SideColumns& columns() const { return columns_; }
     SideSpans own_columns() const {
@@ -122,54 +122,54 @@ public:
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< number of discs on all ranks
     const Domains& domains() const { return domains_; }
-    /// The other ranks that had own discs in their halo when it was fetched.
+    /// The other ranks that had own discs of this rank in their halo when it was fetched.
     std::span<const int> neighbours() const {
         return periods_.are_any() ? other_partners_ : halo_plan_.partners;
     }
 
     const Periods& periods() const { return periods_; }
-    /// Call it after a sync, because moving images are then elsewhere.
+    /// Call it after each sync, because a sync moves the origin of time for moving images.
     void set_periods(const Periods& periods) { periods_ = periods; }
-    /// Whether no rank has a halo, because there are no neighbours.
+    /// Whether no rank has a halo, because there is one rank and no periodic side.
     bool has_no_halo() const { return communicator_.size() == 1 && !periods_.are_any(); }
-    /// Own discs have no images until the next migration. If all of them are in the box, as after a
-    /// sync, only discs that were near its sides when they were sorted can need an image then.
+    /// Removes images of own discs until the next migration. If `are_in_box`, as after a sync, that
+    /// migration searches only discs that were near the sides when sorted.
     void forget_images(bool are_in_box = false);
 
-    /// As forget_images, but the images can be restored until the next migration. Each costs little
-    /// after the first one, because no image changes until then.
+    /// Like forget_images, but restore_images can restore the images until the next migration.
+    /// Repeated calls cost little, because the discs with images are listed only once.
     void set_images_aside();
     void restore_images();
 
-    /// The positions that a rank with a halo of `reach` uses, in a box of this extent. The box
-    /// limits them only along axes that are not periodic.
+    /// The region of positions that a rank with a halo of `reach` uses, for a box of this extent.
+    /// The box limits the region only along axes that are not periodic.
     Extent extent_seen(const Extent& box, double reach) const;
 
-    /// Removes discs that have left the box from the own ones for good, and drops the halo.
-    /// **Collective.**
+    /// Moves discs that have departed from the own discs to `departed()` for good, and drops the
+    /// halo. **Collective.**
     void set_departed_aside();
-    /// Takes departed discs, the same ones on all ranks, into the box, and drops the halo. The rank
-    /// whose domain contains a disc's state owns the disc.
+    /// Returns departed discs, given equally on all ranks, into the box, and drops the halo. The
+    /// rank whose domain contains the disc's position becomes its owner.
     void take_back(std::span<const ReturningDisc> discs);
     std::span<const DiscState> departed() const { return departed_; }
-    /// Numbers of the departed discs, in the order of `departed()`
+    /// Side columns of the departed discs, in the order of `departed()`
     const SideColumns& departed_columns() const { return departed_columns_; }
     /// Number of discs on all ranks, departed ones included.
     std::uint64_t n_with_departed() const { return n_with_departed_; }
 
-    /// Drops the discs of the halo.
+    /// Removes the halo.
     void forget_halo() {
         more_halo_.clear();
         discs_.resize(n_own_);
         columns_.resize(n_own_);
     }
 
-    /// Whether each own disc lies in its domain at `time`, and all ranks together have
-    /// each of 0 .. n-1 once, departed ones included. **Collective.**
+    /// Whether each own disc lies in this rank's domain at `time`, and all ranks together have each
+    /// disc 0 .. n-1 once, including departed discs. **Collective.**
     bool is_valid(double time) const;
 
 private:
-    /// Discs that were added to the halo later.
+    /// Halo discs that fetch_more_halo has added.
     struct HaloPart {
         TransferPlan plan;
         std::vector<std::size_t> offsets; ///< where each partner's discs begin, and the end
@@ -186,7 +186,7 @@ private:
                      std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
     Companions companions(DiscStates* states);
 
-    /// New state of a disc, and its place in the neighbour's halo.
+    /// The new state of a disc, and the index of the disc in the partner's halo.
     struct Update {
         DiscState disc;
         std::uint64_t place;
@@ -200,7 +200,7 @@ private:
     Box box_;
     Periods periods_;
     DiscStates discs_;    ///< own discs, then the halo
-    SideColumns columns_; ///< numbers of these discs
+    SideColumns columns_; ///< numbers of the discs in `discs_`
     std::size_t n_own_ = 0;
     std::uint64_t n_total_, n_with_departed_;
     DiscStates departed_;          ///< departed discs, at the positions where they left
@@ -210,13 +210,13 @@ private:
         redistributed_domains_; ///< the present cuts, and the cuts at the last migration
     NeighbourExchange exchange_;
     CellGrid grid_;
-    bool is_sorted_ = false; ///< the grid has the own discs' places
-    /// own discs with an image, and the image
+    bool is_sorted_ = false; ///< whether the grid holds the present order of own discs
+    /// Own discs whose image is displaced, and this image
     std::vector<std::pair<LocalIndex, Image>> displaced_;
-    bool are_displaced_listed_ = false; ///< whether they have been listed since the last migration
+    bool are_displaced_listed_ = false; ///< whether `displaced_` was filled since the migration
     bool has_images_ = false; ///< own discs had their images in the box when they were sorted
     TransferPlan halo_plan_;
-    /// Neighbours without this rank; in a periodic box a rank is also a neighbour of itself
+    /// Neighbours except this rank itself, which is its own neighbour in a periodic box
     std::vector<int> other_partners_;
     std::vector<std::size_t> halo_offsets_; ///< where each partner's discs begin
     std::vector<HaloPart> more_halo_;

@@ -52,10 +52,10 @@ bool can_move(const Strip& before, const Strip& after, double distance) {
 }
 
 bool are_within(const Strip& a, const Strip& b, double reach) {
-    // The same comparisons as those of senders. A sender below b compares the rounded x + reach,
+    // These are the comparisons that senders make. A sender below b compares the rounded x + reach,
     // which is at most this sum, because rounding is monotone. A sender above b compares the
-    // rounded x - reach, and if that is less than b.high the other sum is at least x. A difference
-    // of the two edges could be rounded the wrong way.
+    // rounded x - reach; if that is less than b.high, the other sum here is at least x. The
+    // difference of two edges could be rounded in the wrong direction.
     return a.high + reach >= b.low && b.high + reach >= a.low;
 }
 
@@ -66,7 +66,7 @@ std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double
     const double bin_width = length / static_cast<double>(std::max<std::size_t>(1, weights.size()));
     std::vector<double> cuts;
     std::size_t bin = 0;
-    double below = 0; // the weight of the bins below `bin`: whole numbers, exact up to 2^53
+    double below = 0; // total weight before `bin`, an integer: exact up to 2^53
     for (const double share : below_cuts) {
         double cut = length * share;
         if (total > 0) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An axis, by default x, cut into half-open slabs, and the lists of owners that may exchange discs.
-// Domains (domains.hpp) are strips in both directions. Pure arithmetic, no MPI.
+// Cuts an axis, by default x, into half-open strips, and lists owners that may exchange discs.
+// Domains (domains.hpp) use strips in both directions. Only arithmetic, without MPI.
 //
 // All lists follow from numbers that every rank knows, so both partners of an exchange compute the
-// same lists without a message. Lists are symmetric: a lists b if and only if b lists a. They are
-// complete to the last bit if senders pick receivers with `meets(x - reach, x + reach)` or
-// `owner(x)`, because these comparisons round the same way.
+// same lists without messages. Lists are symmetric: a lists b if and only if b lists a. No disc is
+// missed if senders choose receivers with `meets(x - reach, x + reach)` or `owner(x)`, because all
+// these comparisons round in the same way.
 #pragma once
 
 #include <cstdint>
@@ -17,28 +17,28 @@
 
 namespace carrom {
 
-/// the half-open interval [low, high)
+/// The half-open interval [low, high).
 struct Strip {
     double low = 0, high = 0;
 
     bool is_empty() const { return !(low < high); }
     bool holds(double place) const { return place >= low && place < high; }
-    /// Whether a strip that is not empty meets [from, to].
+    /// Whether the strip, which must not be empty, has a point in common with [from, to].
     bool meets(double from, double to) const { return from < high && to >= low; }
 };
 
-/// Half-open strips [low(k), high(k)) that cover all x; the first begins at -infinity, the last
-/// ends at +infinity. Equal cuts make empty strips; those own nothing and have no neighbours.
+/// Half-open strips [low(k), high(k)) that together cover all x, from -infinity to +infinity. Two
+/// equal cuts make an empty strip, which owns nothing and has no neighbours.
 class Strips {
 public:
     /// One strip that covers everything.
     Strips() = default;
 
-    /// `cuts`: ascending and finite, one fewer than strips.
+    /// `cuts`: ascending and finite; their number is that of the strips minus one.
     explicit Strips(std::vector<double> cuts, Axis axis = Axis::x);
 
     Axis axis() const { return axis_; }
-    /// The disc's place along the strips' axis.
+    /// The disc's coordinate along the strips' axis.
     double place_of(const DiscState& disc, double time) const {
         return axis_ == Axis::x ? disc.x_at(time) : disc.y_at(time);
     }
@@ -53,8 +53,8 @@ public:
     /// The rank whose strip holds `x`.
     int owner(double x) const;
 
-    /// The other ranks r, ascending, such that a disc in one of the strips r and `rank` can lie
-    /// within `reach` >= 0 of the other. Cost: the number of strips within reach.
+    /// The other ranks, ascending, whose strips have points within `reach` >= 0 of this rank's
+    /// strip. Cost: the number of strips within reach.
     std::vector<int> neighbours_within(int rank, double reach) const;
 
     friend bool operator==(const Strips&, const Strips&) = default;
@@ -64,16 +64,16 @@ private:
     Axis axis_ = Axis::x;
 };
 
-/// Whether a disc that was in the strip `before` can be in the strip `after` when it has moved by
-/// at most `distance`. Neither strip is empty.
+/// Whether a disc from the strip `before` can be in the strip `after` when it has moved by at most
+/// `distance`. Neither strip may be empty.
 bool can_move(const Strip& before, const Strip& after, double distance);
 
-/// Whether a disc in one of the strips can lie within `reach` >= 0 of the other. Neither is empty.
+/// Whether two points, one in each strip, can be within `reach` >= 0. Neither strip may be empty.
 bool are_within(const Strip& a, const Strip& b, double reach);
 
-/// Returns cuts such that the share `below[k]` of the weight is below cut k; the shares ascend from
-/// 0 to 1. `weights` belong to equal bins of [0, length], and are assumed to be spread evenly
-/// inside a bin. The cuts ascend, lie within the box, and are a function of the arguments alone.
+/// Returns cuts such that the fraction `below[k]` of the weight lies below cut k; `below` ascends
+/// from 0 to 1. `weights` are those of equal bins of [0, length]; inside a bin the weight is
+/// assumed to be uniform. The cuts ascend, lie in the box, and depend on the arguments only.
 std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double length,
                                   std::span<const double> below);
 

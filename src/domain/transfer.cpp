@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// Finds a partner's index in the plan, which has few partners.
+/// Finds the index of a partner in the plan's list by its rank, in constant time.
 class PartnerPlaces {
 public:
     explicit PartnerPlaces(const std::vector<int>& partners) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans which discs go to which rank, and sends them. A plan can move any array that runs along the
-// discs.
+// Plans which discs go to which rank, and sends them. A plan can send any array that has one
+// element for each disc.
 //
-// Halo and migration are two plans for the same move. Both ends of a plan know their partners from
-// the cuts and a bound on distances alone. So the only messages are those that carry discs, one to
+// Migration and the halo are two kinds of plan for the same transfer. Both sides know their
+// partners from the cuts and a bound on distances. So the only messages carry discs, one message to
 // each partner.
 #pragma once
 
@@ -19,16 +19,16 @@
 
 namespace carrom {
 
-/// Places begin .. end - 1 of a list of discs.
+/// The indices begin .. end - 1 of a list of discs.
 struct PlaceRange {
     std::size_t begin = 0, end = 0;
 };
 
-/// The discs that leave, in one list for each partner.
+/// The discs to be sent, with one list for each partner.
 struct LeavingDiscs {
-    std::vector<std::vector<LocalIndex>> leaving; ///< ascending places
-    std::vector<std::vector<Image>> images; ///< for each entry of `leaving` the image that is sent;
-                                            ///< only for halos of periodic boxes
+    std::vector<std::vector<LocalIndex>> leaving; ///< indices of discs, ascending
+    std::vector<std::vector<Image>> images; ///< for each entry of `leaving`, the image that is
+                                            ///< sent; only for halos in periodic boxes
 
     std::size_t n_sent() const {
         std::size_t n = 0;
@@ -38,63 +38,63 @@ struct LeavingDiscs {
 };
 
 struct TransferPlan : LeavingDiscs {
-    std::vector<int> partners; ///< each rank is listed once
+    std::vector<int> partners; ///< ranks; each is listed once
 };
 
-/// The discs whose place at `time` lies in another rank's domain. They were in this rank's domain
-/// in `before`, or at most `farthest` outside it along each axis. `searched` are ascending ranges
-/// of own discs that contain all discs outside of the domain.
+/// Lists the discs that lie in another rank's domain at `time`. The discs were in this rank's
+/// domain in `before`, or at most `farthest` outside along each axis. `searched`: ascending ranges
+/// that include every own disc outside of the domain.
 TransferPlan plan_migration(const Domains& before, const Domains& domains, int rank,
                             std::span<const DiscState> own, std::span<const PlaceRange> searched,
                             double time, double farthest, int n_threads);
 
-/// A halo holds the discs within `reach` of a domain along each axis, except those within `beyond`
-/// of it. A negative `beyond` excludes none.
+/// A halo contains the discs within `reach` of a domain along each axis, without those within
+/// `beyond`. If `beyond` is negative, none is left out.
 struct HaloDepth {
     double reach = 0, beyond = -1;
 };
 
-/// The discs for the halos of other ranks at `time`. Empty domains get none. `searched` are
-/// ascending ranges of own discs that contain all discs within the reach of the domain's sides.
+/// Lists the discs for the halos of other ranks at `time`; empty domains get no discs. `searched`:
+/// ascending ranges that include every own disc within reach of the domain's sides.
 TransferPlan plan_halo(const Domains& domains, int rank, std::span<const DiscState> own,
                        std::span<const PlaceRange> searched, double time, const HaloDepth& depth,
                        int n_threads);
 
-/// Makes a plan from the positions of the discs' images in a box with periodic sides. After a
-/// migration these are the images in the box. In a halo a disc also goes to its own rank, as other
-/// images, and may go to a rank several times.
+/// These plans use positions of images in a box with periodic sides; after a migration each own
+/// disc has its image in the box. In a halo, a rank also gets other images of its own discs, and a
+/// disc may go to one rank several times.
 TransferPlan plan_periodic_migration(const Domains& before, const Domains& domains, int rank,
                                      std::span<const DiscState> own, double time, double farthest,
                                      const Periods& periods, int n_threads);
-/// `searched` are ascending ranges of own discs that contain all discs outside of `interior`.
+/// `searched`: ascending ranges that include every own disc outside of `interior`.
 TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<const DiscState> own,
                                 std::span<const PlaceRange> searched, double time,
                                 const HaloDepth& depth, const Periods& periods, int n_threads);
-/// The partners of both plans.
+/// The partners of both halo plans: the ranks that may exchange halo discs.
 std::vector<int> halo_partners(const Domains& domains, int rank, double reach,
                                const Periods& periods);
 
-/// The part of the rank's domain that is further than `reach` from its sides. Sides of the box
+/// The part of the rank's domain that is more than `reach` away from its sides. Sides of the box
 /// count only if they are periodic.
 Inside interior(const Domains& domains, int rank, double reach, const Periods& periods);
 
-/// Sends those values of an array along the own discs that `plan` names, and appends the values
-/// that arrive to `arrived`, which may be the same array. Returns where each partner's values begin
-/// among the arrived ones, and their number at the end. The values are discs, numbers or hashes.
+/// Sends elements of `values`, one for each own disc, as `plan` says, and appends the elements that
+/// arrive to `arrived`, which may be the same array. Returns where each partner's elements begin
+/// among the arrived ones, and their total number. Elements may be discs, numbers or hashes.
 /// **Collective.**
 template <class Values>
 std::vector<std::size_t> transfer(NeighbourExchange& exchange, const TransferPlan& plan,
                                   const Values& values, Values& arrived, int n_threads);
 
-/// Sends discs as the images that the plan names. **Collective.**
+/// Sends discs, each with the image in the plan. **Collective.**
 std::vector<std::size_t> transfer_images(NeighbourExchange& exchange, const TransferPlan& plan,
                                          const DiscStates& values, DiscStates& arrived,
                                          int n_threads);
 
-/// Appends the images that a single rank sends to itself.
+/// Appends the images of own discs that a single rank needs in its own halo.
 void append_images(const TransferPlan& plan, DiscStates& values, int n_threads);
 
-/// Removes the discs that have left, and fills the gaps from the end.
+/// Removes the discs that have been sent, and fills the gaps with discs from the end.
 template <class Values> void remove_leaving(const TransferPlan& plan, Values& values) {
     std::vector<LocalIndex> all;
     for (const std::vector<LocalIndex>& leaving : plan.leaving)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Planning and packing by all threads of a rank, for the sources of this folder. Otherwise the
-// other threads would wait once or twice a window while one thread plans.
+// Planning and packing with all threads of a rank, for sources in this folder. With one planning
+// thread, all other threads would wait once or twice a window.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 
 namespace carrom {
 
-/// With fewer discs, threads cost more than they save. Planning a disc takes several times as long
-/// as packing it.
+/// With fewer discs, threads cost more than they save. The limit for planning is lower, because
+/// planning a disc takes several times as long as packing it.
 inline constexpr std::size_t least_for_threads = 4096, least_planned_on_threads = 512;
 
-/// Calls visit(place) for the places first .. last - 1, counted over all ranges together.
+/// Calls visit(place) for the places first .. last - 1, numbered through all ranges together.
 template <class Visit>
 void visit_places(std::span<const PlaceRange> ranges, std::size_t first, std::size_t last,
                   const Visit& visit) {
@@ -32,8 +32,8 @@ void visit_places(std::span<const PlaceRange> ranges, std::size_t first, std::si
     }
 }
 
-/// Each thread searches a part of the places that the ranges hold. `visit(place, leaving)` appends
-/// to the lists of its part, which are appended to those of `plan` in the order of places.
+/// Each thread searches a part of the places in `searched`. `visit(place, leaving)` appends to the
+/// lists of that part, which are then appended to the lists of `plan` in the order of places.
 template <class Visit>
 void plan_in_parts(TransferPlan& plan, std::span<const PlaceRange> searched, int n_threads,
                    const Visit& visit) {
@@ -47,7 +47,7 @@ void plan_in_parts(TransferPlan& plan, std::span<const PlaceRange> searched, int
     std::vector<LeavingDiscs> parts(n_parts);
 #pragma omp parallel for num_threads(n_threads) schedule(static, 1)
     for (std::size_t k = 0; k < n_parts; ++k) {
-        // A copy with empty lists; lists in `parts` itself would share cache lines
+        // A copy with empty lists, because writing to `parts[k]` itself would share cache lines
         LeavingDiscs part = plan;
         visit_places(searched, share(n_searched, k, n_parts), share(n_searched, k + 1, n_parts),
                      [&](LocalIndex place) { visit(place, part); });
@@ -63,7 +63,7 @@ void plan_in_parts(TransferPlan& plan, std::span<const PlaceRange> searched, int
     }
 }
 
-/// Like `transfer`, but sends pack(value, k, i) for the i-th disc that goes to partner k.
+/// Like `transfer`, but sends pack(value, k, i) instead of the i-th value for partner k.
 template <class Values, class Pack>
 std::vector<std::size_t> transfer_packed(NeighbourExchange& exchange, const TransferPlan& plan,
                                          const Values& values, Values& arrived, int n_threads,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All dynamics that kernels and engines are compiled for. engine/dynamics_of_scene.hpp chooses one
-// of them. Each costs some seconds of compile time, so choices that are not made for each pair are
-// made at run time.
+// All dynamics for which kernels and engines are compiled. engine/dynamics_of_scene.hpp chooses one
+// of these. Each adds some seconds of compile time, so only choices that are made for each pair are
+// compiled; all others are made at run time.
 #pragma once
 
 #include "dynamics/dynamics.hpp"
@@ -12,7 +12,7 @@ namespace carrom {
 /// The dynamics of a scene that names no effect: free flight, elastic pairs, four elastic walls at
 /// rest (docs/understanding/method.md, sections 3 and 4).
 using PlainDynamics = Dynamics<WalledSpace, EqualBodies, PlainSurroundings<>>;
-/// The plain dynamics in less accurate arithmetic.
+/// The plain dynamics with less accurate arithmetic, for studies of errors.
 template <class Real>
 using StudyDynamics =
     Dynamics<WalledSpace, EqualBodies, PlainSurroundings<StudiedArithmetic<Real>>>;
@@ -21,12 +21,12 @@ using WalledDynamics = Dynamics<WalledSpace, EqualBodies>;
 using WalledMixedDynamics = Dynamics<WalledSpace, SpeciesBodies>;
 using PeriodicDynamics = Dynamics<PeriodicSpace, EqualBodies>;
 using PeriodicMixedDynamics = Dynamics<PeriodicSpace, SpeciesBodies>;
-/// For one species or several. The box may have walls only, and then no images.
+/// For one or several species. The box may have walls only; then no images are used.
 using GrowingDynamics = Dynamics<PeriodicSpace, GrowingBodies>;
-/// One species or several.
+/// For one or several species.
 using ShearedDynamics = Dynamics<ShearedSpace, SpeciesBodies>;
 
-// Calls make(dynamics) for each of these dynamics.
+// Calls make(Type) for each type of dynamics.
 #define CARROM_FOR_EACH_DYNAMICS(make)                                                             \
     make(PlainDynamics) make(StudyDynamics<double>) make(StudyDynamics<float>)                     \
         make(WalledDynamics) make(WalledMixedDynamics) make(PeriodicDynamics)                      \

@@ -14,8 +14,8 @@ namespace carrom {
 
 namespace {
 
-/// The time at which a flight gets further than `reach` from the centre, unless it is beyond
-/// `wall` already.
+/// The time at which the flight gets further than `reach` from the centre; `never` if the disc is
+/// already further away than `wall`.
 double way_out(const ArcFlight& f, double reach, double wall) {
     const double b = f.dx * f.wx + f.dy * f.wy, a = f.wx * f.wx + f.wy * f.wy;
     if (!(reach > 0) || !(a > 0)) return never;
@@ -24,13 +24,13 @@ double way_out(const ArcFlight& f, double reach, double wall) {
     const double speed = std::sqrt(a), most = speed * reach,
                  x = std::fabs(cross(f.dx, f.dy, f.wx, f.wy));
     const double square = (most - x) * (most + x);
-    // A flight along the wall that is completely outside of it by rounding.
+    // By rounding, the whole flight lies outside of the circle of radius `reach`.
     if (!(square > 0)) return b < 0 && x < speed * wall ? -b / a : never;
     const double root = std::sqrt(square);
     return b < 0 ? (root - b) / a : (reach - distance) * (reach + distance) / (b + root);
 }
 
-/// The times, ascending, at which the distance has its extrema.
+/// The times at which the distance has a minimum or maximum, ascending.
 struct Turns {
     std::array<double, 3> times{};
     std::size_t n = 0;
@@ -44,7 +44,7 @@ Turns turns_of(const Parabola& flight) {
     const auto [first, second] = flight.bends();
     for (const double bend : {first, second, never}) {
         if (!(bend > start)) continue;
-        if (bend == never && !falls) break; // the distance grows ever faster
+        if (bend == never && !falls) break; // the distance then grows for ever
         const double end = bend == never ? flight.late(start) : bend;
         const bool falls_at_end = bend != never && flight.rate(end).value < 0;
         if (falls != falls_at_end) {
@@ -57,7 +57,7 @@ Turns turns_of(const Parabola& flight) {
     return turns;
 }
 
-/// The time of the contact while the distance falls from `begin` to `end`, or `never`.
+/// Time of contact with the outer face while the distance falls from `begin` to `end`, or `never`.
 double contact_while_falling(Parabola flight, double outer, double wall, double begin, double end) {
     flight.reach = outer;
     if (flight.gap(begin).value <= 0) return flight.gap(begin).value + outer < wall ? never : begin;
@@ -65,7 +65,7 @@ double contact_while_falling(Parabola flight, double outer, double wall, double 
     return root_between(begin, end, false, [&flight](double s) { return flight.gap(s); });
 }
 
-/// The same while the distance grows; `end` may be `never`.
+/// The time of contact with the inner face, while the distance grows; `end` may be `never`.
 double contact_while_rising(Parabola flight, double inner, double wall, double begin, double end) {
     flight.reach = inner;
     if (!(inner > 0)) return never;
@@ -84,7 +84,7 @@ double arc_contact(const ArcFlight& flight, double radius, double arc_radius, co
         return span.holds(x, y, std::sqrt(x * x + y * y));
     };
     const auto [dx, dy, wx, wy] = flight;
-    // A centre inside the arc overlaps its outer face by more than a radius.
+    // A disc whose centre is inside the arc overlaps the outer face by more than a radius.
     const double in = contact_delay(-dx, -dy, -wx, -wy, arc_radius + radius, radius);
     if (in >= 0 && is_there(in)) return in;
     const double out = way_out(flight, arc_radius - radius, arc_radius);

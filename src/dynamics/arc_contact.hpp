@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a disc first touches an arc, a part of a circle without thickness. A disc of radius r meets
-// the outer face of an arc of radius R where its centre comes nearer than R + r to the arc's, and
-// the inner face where it gets farther than R - r, if the arc is in that direction. The ends of an
-// arc are points, which are bodies of their own (fixed_bodies.hpp).
+// Computes when a disc first touches an arc, a part of a circle without thickness. A disc of radius
+// r touches the outer face of an arc of radius R when its centre comes closer than R + r to the
+// arc's centre. It touches the inner face when its centre gets further away than R - r. Both hold
+// only in directions of the arc. Its ends are separate bodies: points (fixed_bodies.hpp).
 //
-// On a straight flight both are roots of one quadratic, without subtracting nearly equal numbers.
-// Where discs fall the distance is the root of a quartic, and is monotone in up to four pieces of
-// time (falling_contact.hpp). Price: some three square roots, or some 20 divisions a root where
-// discs fall.
+// On a straight flight both times are roots of the same quadratic, computed without cancellation.
+// If discs fall, the time is the root of a quartic, and the distance is monotone in up to four
+// intervals of time (falling_contact.hpp). Cost: some three square roots; if discs fall, some 20
+// divisions for each root.
 #pragma once
 
 namespace carrom {
 
-/// The directions from an arc's centre in which the arc is.
+/// The range of directions, from the arc's centre, that the arc covers.
 struct ArcSpan {
-    double ux = 1, uy = 0;    ///< the direction of its middle
+    double ux = 1, uy = 0;    ///< direction of the arc's middle
     double least_cosine = -2; ///< cosine of half the angle of the arc; below -1 for a whole circle
 
     bool holds(double x, double y, double distance) const {
@@ -22,16 +22,16 @@ struct ArcSpan {
     }
 };
 
-/// A disc's centre relative to the arc's centre, and its velocity.
+/// A disc's position and velocity relative to the arc's centre.
 struct ArcFlight {
     double dx, dy, wx, wy;
 };
 
 /// The first time s >= 0 at which a disc of `radius` touches either face of the arc of `arc_radius`
-/// and comes nearer to it; infinite if there is none. If rounding has left the disc too near, the
-/// contact is when it next comes nearer.
+/// while it approaches this face; infinite if there is none. If rounding has put the disc slightly
+/// into the arc, the contact is at the next time of approach.
 double arc_contact(const ArcFlight& flight, double radius, double arc_radius, const ArcSpan& span);
-/// As arc_contact, for discs that fall; the acceleration must not be zero.
+/// Like arc_contact, for falling discs; the acceleration must not be zero.
 double falling_arc_contact(const ArcFlight& flight, double gx, double gy, double radius,
                            double arc_radius, const ArcSpan& span);
 

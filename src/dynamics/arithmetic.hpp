@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arithmetic of flights and contacts: double precision and the stable formula of the time of
-// contact (pair_contact.hpp). One part of a dynamics (dynamics.hpp). The accuracy study has others
-// (studied_arithmetic.hpp).
+// The arithmetic of flights and contacts: double precision and the stable formula for the time of
+// contact (pair_contact.hpp). It is one part of a dynamics (dynamics.hpp). The accuracy study uses
+// other arithmetics (studied_arithmetic.hpp).
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ public:
 
     static Box rounded(const Box& box) { return box; }
     static constexpr double rounded(double number) { return number; }
-    /// Rounding makes no overlap deeper than this.
+    /// The deepest overlap that rounding can cause.
     static double tolerance(const Box& box, double diameter) {
         return std::max(1e-12 * diameter, 16 * 0x1p-52 * box.longest());
     }

@@ -4,12 +4,12 @@
 //
 //   EqualBodies     one radius, the mass 1
 //   SpeciesBodies   a radius and a mass for each species (species.hpp)
-//   GrowingBodies   one species or several, whose radii grow at a constant rate, r(t) = r(0)
-//                   (1 + rate t), as Lubachevsky and Stillinger (J. Stat. Phys. 60, 561 (1990))
-//                   compress them; event-driven method only. Radii follow from the time since the
-//                   scene's start, so no state has them. Surfaces that meet part as those of other
-//                   discs do, seen from the moving surfaces. Or the rate is 0, and an effect
-//                   changes all radii by one factor at syncs (dynamics/sync_effect.hpp).
+//   GrowingBodies   one species or several; radii grow at a constant rate, r(t) = r(0)
+//                   (1 + rate t), as in the method of Lubachevsky and Stillinger (J. Stat.
+//                   Phys. 60, 561 (1990)); event-driven method only. Radii follow from the time
+//                   since the scene's start, so states do not contain them. Collisions follow the
+//                   law of other discs, for velocities of moving surfaces. If the rate is 0,
+//                   an effect changes all radii by one factor at syncs (dynamics/sync_effect.hpp).
 #pragma once
 
 #include <concepts>
@@ -26,7 +26,7 @@
 
 namespace carrom {
 
-/// A disc as a side of the box needs it, at a given time.
+/// The numbers of a disc that a side of the box needs, at a given time.
 struct Body {
     double radius = 0, mass = 1;
     double outwards = 0; ///< how fast the surface moves out
@@ -111,7 +111,7 @@ public:
         return {it.radius, it.mass, 0};
     }
     CARROM_DEVICE static constexpr double size_at(double /*time*/) { return 1; }
-    /// The sum of two radii does not depend on their order.
+    /// The sum of the two radii has the same bits in either order of the discs.
     [[gnu::always_inline]] CARROM_DEVICE double delay(const StableArithmetic& arithmetic,
                                                       const DiscState& p, const DiscState& q,
                                                       const Encounter<double>& met, double /*time*/,
@@ -130,8 +130,8 @@ private:
 class GrowingBodies {
 public:
     static constexpr bool have_species = true, grow = true;
-    /// Discs that jam collide ever faster as long as they grow, so a run should end
-    /// before it takes hours.
+    /// Growing discs that jam collide faster and faster, so the run is ended before it takes
+    /// hours.
     static constexpr double cascade_interval = 0x1p-10;
 
     /// `effects` have times in micro-steps.
@@ -141,8 +141,8 @@ public:
     CARROM_DEVICE void begin_interval(std::int64_t n) {
         at_sync_ = size_ * (1 + rate_ * static_cast<double>(n));
     }
-    /// From now on all radii are the scene's times `size`. Only for discs that do not grow at a
-    /// rate.
+    /// From now on all radii are the scene's radii times `size`. Only for discs that do not grow at
+    /// a rate.
     void resize(double size) { at_sync_ = size_ = size; }
     void look_up_in(SpeciesView species) { species_ = species; }
     CARROM_DEVICE double largest() const { return radius_; }

@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// At most an eighth of a period, during which the wall's acceleration changes little.
+/// The rest time, at most an eighth of a period, so that the acceleration changes little in it.
 double rest_time_at(const Boundary& side, const ContactGuard& guard, double acceleration,
                     double sway, double period, double radius) {
     if (sway != 0)
@@ -73,12 +73,12 @@ Extent Boundaries::walls_between(double begin, double end) const {
     // A curve deviates from its chord by at most an eighth of (end - begin)^2 times the largest
     // acceleration, which is the one at the end.
     const double eighth = std::pow((end - begin) / fall_.slowing_at(end), 2) / 8;
-    // A disc departs where its centre is a radius beyond an open side. So bounds for discs of every
-    // radius begin at the side itself, which is two of the largest radii inside the line where the
-    // largest disc departs. After a collision with an oscillating wall a disc is at most as fast as
-    // the wall, which limits its distance from the wall's highest position. If the acceleration
-    // changes, a wall that moves in may accelerate. Then the distance of a disc that it hits is at
-    // most the path of a wall under the largest constant acceleration.
+    // A disc departs where its centre is a radius beyond an open side. The line where the largest
+    // disc departs is two of its radii outside of the position where bounds for discs of every
+    // radius begin. After a collision with an oscillating wall a disc is at most as fast as the
+    // wall, which limits its distance from the wall's highest position. If the acceleration
+    // changes, a wall may speed up inwards. A disc hit by the wall then gets at most as far as a
+    // wall under the largest constant acceleration.
     const auto bend = [&](std::size_t side) {
         const Oscillation& wall = oscillations_[side];
         const double pull = sways_along(side) ? 8 * largest_pull_at(side)
@@ -86,9 +86,9 @@ Extent Boundaries::walls_between(double begin, double end) const {
         return pull * eighth + (is_open(side) ? 2 * radius_ : 0) +
                (wall.amplitude() + wall.largest_speed() * (end - begin));
     };
-    // A wall that moves in, and from which all discs fall away, may have hit discs that are far
-    // from it at the end. Their distance is at most the one that the wall would travel with its
-    // first velocity, because discs are slower than the wall before the collision.
+    // Discs may fall away from a wall that moves in. A disc that the wall has hit may be far from
+    // it at the end, but at most as far as the wall would move at its first velocity, because the
+    // disc was slower than the wall before the collision.
     const auto led = [&](std::size_t side) { return wall_velocity(side, begin) * (end - begin); };
     return {std::max({first.x_low, last.x_low, first.x_low + led(0)}) + bend(0),
             std::min({first.x_high, last.x_high, first.x_high + led(1)}) - bend(1),
@@ -96,8 +96,8 @@ Extent Boundaries::walls_between(double begin, double end) const {
             std::min({first.y_high, last.y_high, first.y_high + led(3)}) - bend(3)};
 }
 
-/// With drag a frame and a clock that begin at `time` describe the same flight, because F(s + d) -
-/// F(s) - F'(s) d = F(d / (1 - c s)).
+/// With drag a frame and a clock that start at `time` describe the same flight as the present ones,
+/// because F(s + d) - F(s) - F'(s) d = F(d / (1 - c s)).
 double Boundaries::delay_of(const Approach& approach, double time) const {
     const auto& [distance, rate, pull] = approach;
     if (drag_ == 0 || pull == 0) return fall_delay(distance, rate, pull);
@@ -135,7 +135,7 @@ bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
         auto [distance, rate, pull] = approach(disc, side, body);
         const double towards = sways_along(side) ? -largest_pull_at(side) : std::min(pull, 0.0);
         const bool oscillates = oscillations_[side].is_on();
-        // The distance from the wall's highest position, which the wall may reach soon
+        // Distance to the highest position of the wall, which the wall may reach soon
         if (oscillates) [[unlikely]] {
             distance -= oscillations_[side].amplitude();
             rate = std::min(rate, 0.0);
@@ -176,8 +176,8 @@ void Boundaries::reverse(DiscState& disc, Axis axis, const Body& body, double* s
     rebound(disc, side, never, 0, body, spin);
 }
 
-/// The acceleration that presses a disc at rest against the side. If it changes, the larger of its
-/// values now and at the end of a contact.
+/// The acceleration that presses a disc at rest against the side. If it changes in time, this is
+/// the larger of its values now and at the end of a contact.
 double Boundaries::pressure_at(std::size_t side, double time) const {
     const double sign = sign_of(side), steady = -sign * pull_at(side);
     if (!sways_along(side)) [[likely]]
@@ -197,7 +197,7 @@ Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double
                  wall = oscillates ? oscillating_velocity(side, time) : wall_velocity(side, time);
     const auto& [radius, mass, outwards] = body;
     const auto& [restitution, rubbing] = surfaces_[side].of(disc.id);
-    // As in a bounce from a wall that moves in as fast as the disc grows.
+    // A disc that grows bounces as from a wall that moves in at the speed of its surface.
     const double closing = std::fabs(sign * (wall - normal) + outwards);
     const bool is_guarded = guard_.holds_at_wall(since, closing, radius);
     double away = outwards + (is_guarded ? 1 : restitution) * closing;
@@ -214,8 +214,8 @@ Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double
         along = (speed * random_direction(random).x) / fall_.slowing_at(time) +
                 surface_velocity(side, time);
     }
-    // If the disc falls back, it leaves fast enough to stay away for the duration of a
-    // contact, because a disc at rest would otherwise bounce for ever.
+    // A disc that will fall back leaves fast enough to stay away for the duration of a contact,
+    // because a disc at rest would otherwise bounce for ever.
     const double pull = oscillates ? oscillations_[side].pressure_at(time, time + rest_times_[side])
                                    : pressure_at(side, time);
     if (pull > 0)

@@ -30,22 +30,22 @@ namespace carrom {
 
 class Boundaries {
 public:
-    /// `effects` have times in micro-steps; `radius` is the largest one.
+    /// `effects` have times in micro-steps; `radius` is the largest radius of a disc.
     Boundaries(const Box& box, double radius, const Effects& effects);
 
-    /// From now on times count from micro-step `n` of the scene.
+    /// Starts an interval: from now on times count from micro-step `n` of the scene.
     void begin_interval(std::int64_t n);
     /// Positions of the walls at `time`, in the frame's coordinates.
     Extent extent_at(double time) const;
-    /// Bounds that lie inside the walls throughout [begin, end], by as much as the walls' paths
-    /// bend; see Dynamics.
+    /// Bounds that lie inside the walls throughout [begin, end]. They are narrower than the walls
+    /// at both ends by the deviation of the walls' paths from straight lines; see Dynamics.
     Extent walls_between(double begin, double end) const;
     /// When the disc meets a side of this axis, or `never`.
     double wall_time(const DiscState& disc, Axis axis, const Body& body) const {
         return meeting(disc, axis, body).time;
     }
     /// Carries out the collision at `time` = wall_time(disc, axis, body) in the event-driven
-    /// method. `then` is the body at that time. `spin`, here and below: null where discs do not
+    /// method. `then` is the body at that time. Here and below, `spin` is null if discs do not
     /// turn.
     Loss bounce(DiscState& disc, Axis axis, double time, const Body& body, const Body& then,
                 double* spin) const;
@@ -67,13 +67,13 @@ public:
     double departure(std::size_t side, const Body& body) const {
         return departure_or_touch(side, body.radius);
     }
-    /// Turns a disc that has reached that coordinate into a departed one; its state is advanced to
-    /// `time`.
+    /// Marks a disc that has reached the coordinate `departure` as departed, and advances its state
+    /// to `time`.
     void depart(DiscState& disc, std::size_t side, double time, const Body& body,
                 double* spin) const;
 
-    /// Reverses the velocity along `axis` of a disc that touches a wall at rest; time-stepped
-    /// method.
+    /// Reverses the velocity along `axis` of a disc that touches a wall at rest. For the
+    /// time-stepped method.
     void reverse(DiscState& disc, Axis axis, const Body& body, double* spin) const;
 
 private:
@@ -95,7 +95,7 @@ private:
     }
     static double sign_of(std::size_t side) { return side % 2 == 0 ? 1 : -1; }
 
-    /// The length of the box along the axis at whose end the side is.
+    /// The length of the box across the side, from one side to the opposite one.
     double length_of(std::size_t side) const { return side / 2 == 0 ? box_.x : box_.y; }
     /// The number of the side for random numbers of thermal walls. It is the same for a tall box
     /// and for the same box turned on its side.
@@ -106,9 +106,9 @@ private:
         const double from_line = is_open(side) ? -radius : radius;
         return side % 2 == 0 ? from_line : length_of(side) - from_line;
     }
-    /// Position of the wall for the centre of a disc of this radius, which touches it or has just
-    /// left through an open side. For an oscillating wall this and the next two functions describe
-    /// its line.
+    /// Position of the wall for the centre of a disc of this radius when it touches the wall, or
+    /// has just left through an open side. For an oscillating wall this function and the next two
+    /// describe the line about which it oscillates.
     double wall_at(std::size_t side, double time, double radius) const {
         const double place = departure_or_touch(side, radius) + moved_[side];
         const double fallen = fall_.fallen(pull_at(side), time);
@@ -118,10 +118,10 @@ private:
     }
     /// Whether the pull at the side changes in time.
     bool sways_along(std::size_t side) const { return fall_.sway().acts_along(side / 2); }
-    /// The acceleration of discs near the wall towards it, relative to the wall. Drag
-    /// brakes discs that a moving wall pushes.
+    /// The acceleration along +x or +y of discs near the wall, relative to the wall. It includes
+    /// the drag on discs that a moving wall pushes.
     double pull_at(std::size_t side) const { return pull_[side / 2] - drag_ * speeds_[side]; }
-    /// The largest magnitude of this acceleration at any time.
+    /// The largest magnitude at any time of the acceleration `pull_at`.
     double largest_pull_at(std::size_t side) const {
         return std::fabs(pull_at(side)) + std::fabs(sways_[side / 2]);
     }
@@ -156,7 +156,7 @@ private:
         return velocity - fall_.sway().at(1 - side / 2, time).speed;
     }
     double pressure_at(std::size_t side, double time) const;
-    /// 1 or -1: the sign of the tangent t of rubbing.hpp along +x or +y.
+    /// The sign, 1 or -1, of the tangent t of rubbing.hpp along +x or +y.
     static double sign_along(std::size_t side) { return side == 0 || side == 3 ? 1 : -1; }
 
     std::array<Boundary, 4> sides_;
@@ -166,13 +166,13 @@ private:
     Box box_;
     double radius_;
     std::array<double, 4> away_{}; ///< distance from the box; infinite for periodic sides
-    /// Moved: distance from the scene's start to the last sync
+    /// `moved_`: how far the walls have moved from the scene's start to the last sync
     std::array<double, 4> moved_{}, speeds_{};
     /// The steady part of the acceleration, and the amplitudes of the part that changes in time
     std::array<double, 2> pull_, sways_;
     FallingFrame fall_;
     std::array<Oscillation, 4> oscillations_{};
-    /// Time after which a disc that rests at such a wall is back
+    /// Time in which a disc that rests at the wall bounces once and is back
     std::array<double, 4> rest_times_{};
     std::array<SurfaceTable, 4> surfaces_{};
 };

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides which collisions take no energy, because they belong to a contact that lasts.
+// Decides which collisions lose no energy, because they belong to a contact that lasts.
 //
-// Discs that lose energy would come to infinitely many collisions in a finite time (inelastic
-// collapse: McNamara and Young, Phys. Fluids A 4, 496 (1992)). So dissipation takes time, as in the
-// TC model of Luding and McNamara, Granular Matter 1, 113 (1998): a disc that has collided a
-// contact time before collides elastically. By default a contact is a length, not a time: the
-// collision is elastic if the two have closed in by less than a millionth of the sum of their radii
-// since the last collision of either. So the guard is the same in all units, and follows discs as
-// they cool. At walls and fixed bodies the share is a hundred times larger: they do not give way,
-// so whatever presses a disc to one or into the wedge between two brings it back without end. A
-// scene may name a time instead, which costs fewer collisions where discs lie at rest.
+// Discs that lose energy would undergo infinitely many collisions in a finite time (inelastic
+// collapse: McNamara and Young, Phys. Fluids A 4, 496 (1992)). The TC model of Luding and McNamara,
+// Granular Matter 1, 113 (1998), prevents this: a disc that has collided within the last contact
+// time collides elastically. By default the limit is a length instead: a collision is elastic if
+// the two discs have approached by less than a millionth of the sum of their radii since the last
+// collision of either. This guard is the same in all units and stays right as discs cool. At walls
+// and fixed bodies the share is a hundred times larger, because these do not give way, so a disc
+// that is pressed to one, or into a wedge between two, returns without end. A scene may set a time,
+// which saves collisions where discs lie at rest.
 //
 // If discs are pulled to a wall, a contact at rest is a series of small bounces without loss. The
-// energy that they keep is no error, so it does not count as lost by the guard. Slow contacts that
-// last lose their energy at syncs, so they do not count either.
+// energy that these bounces keep is not counted as spared by the guard. Slow lasting contacts lose
+// their energy at syncs, so they are not counted either.
 //
-// Only collisions count as contacts, syncs and starts do not. A disc's last collision is forgotten
-// at a sync, so its first collision after the sync is guarded only through its partner.
+// Syncs and starts do not count as contacts. A sync resets the last collision of each disc, so the
+// first collision after a sync is guarded only if the partner has collided since that sync.
 #pragma once
 
 #include <algorithm>
@@ -39,18 +39,18 @@ class ContactGuard {
 public:
     /// The share of the distance between centres that two discs close in by during a contact.
     static constexpr double pair_share = 1e-6;
-    /// This share for a disc and its image behind a wall.
+    /// The same share for a disc and its mirror image behind a wall.
     static constexpr double wall_share = 1e-4;
 
-    /// For discs of at most `radius`.
+    /// No disc is larger than `radius`.
     ContactGuard(const Effects& effects, double radius)
         : contact_time_(effects.contact.contact_time) {
         const double pull = effects.acceleration().largest() + largest_wall_pull(effects);
         rest_speed_ = std::max(rest_factor * least_departure(pull, radius), effects.lasting_speed);
     }
 
-    /// `since`: the time since the last collision of either. `closing`: how fast they approach, in
-    /// sums of their radii.
+    /// `since`: time since the last collision of either disc. `closing`: speed of approach, in sums
+    /// of the two radii per micro-step.
     CARROM_DEVICE bool holds(double since, double closing) const {
         return holds(since, closing, pair_share);
     }
@@ -59,37 +59,37 @@ public:
         return holds(since, speed / radius, wall_share);
     }
 
-    /// The smallest speed at which a disc leaves a wall that `pull` presses it against, so that it
-    /// is back a contact later.
+    /// The smallest speed at which a disc leaves a wall to which the acceleration `pull` presses
+    /// it. At this speed the disc is back after the duration of a contact.
     double least_departure(double pull, double radius) const {
         if (!(pull > 0)) return 0;
         return contact_time_ > 0 ? 0.5 * pull * contact_time_
                                  : std::sqrt(0.5 * wall_share * radius * pull);
     }
-    /// The time after which a disc that leaves a wall with `least_departure` is back.
+    /// The time after which a disc that leaves a wall with the speed `least_departure` is back.
     double rest_time(double pull, double radius) const {
         if (contact_time_ > 0) return contact_time_;
         return pull > 0 ? 2 * least_departure(pull, radius) / pull : 0;
     }
 
-    /// The energy that a collision takes, or spares if it is guarded. `energy` is what restitution
-    /// takes. A guarded contact at rest counts as 0.
+    /// The loss of a collision, for which restitution takes `energy`. A guarded collision spares
+    /// this energy, or 0 if the contact is at rest.
     CARROM_DEVICE Loss loss(double energy, double squared_speed, bool is_guarded) const {
         if (!is_guarded) return {energy, 0};
         return {0, squared_speed > rest_speed_ * rest_speed_ ? energy : 0};
     }
 
 private:
-    /// A contact at rest is disturbed by its neighbours, so this many times the speed of departure
-    /// counts as rest.
+    /// Contacts with speeds up to this many times `least_departure` count as at rest, because
+    /// neighbours disturb a disc at rest.
     static constexpr double rest_factor = 10;
 
     CARROM_DEVICE bool holds(double since, double closing, double share) const {
         return contact_time_ > 0 ? since < contact_time_ : since * std::fabs(closing) < share;
     }
 
-    double contact_time_; ///< 0: a length is used instead
-    double rest_speed_;   ///< slower contacts are at rest
+    double contact_time_; ///< if 0, contacts are limited by a length instead
+    double rest_speed_;   ///< guarded contacts up to this speed count as at rest
 };
 
 } // namespace carrom

@@ -10,16 +10,16 @@ namespace carrom {
 
 namespace {
 
-/// Over-relaxation brings forces through a heap in fewer sweeps; a larger factor does not converge
-/// with friction.
+/// Factor of over-relaxation, which carries forces through a heap in fewer sweeps. With friction,
+/// sweeps with a larger factor do not converge.
 constexpr double relaxation = 1.3;
 /// Sweeps end when no velocity changes by more than this share of g T.
 constexpr double small_change = 0.005;
-/// The largest number of sweeps for n contacts is this number plus the square root of n. A sync
-/// need not reach the solution, because the next one begins with its impulses.
+/// The largest number of sweeps for n contacts is this number plus the square root of n. A sync may
+/// end before the solution is reached, because the next sync continues from its impulses.
 constexpr double sweeps_at_most = 20;
-/// In a flow contacts change from sync to sync, so the last impulses are a poor start. Discs with
-/// wrong impulses collide before the next sync, which takes longer than more sweeps.
+/// The number of sweeps for flows. There contacts change from sync to sync, so the last impulses
+/// are a poor start, and collisions due to wrong impulses take longer than more sweeps.
 constexpr double sweeps_of_flow = 400;
 
 } // namespace
@@ -29,7 +29,7 @@ bool may_flow_on(const Effects& effects) {
            (effects.acceleration().y != 0 && effects.is_periodic_y());
 }
 
-/// A body with its mean velocity until the next sync. `turning` is the spin times the radius.
+/// A body with its mean velocity until the next sync; `turning` is the spin times the radius.
 struct ContactImpulses::Body {
     double vx = 0, vy = 0, turning = 0;
     double share = 0; ///< inverse mass; 0 for fixed bodies
@@ -188,8 +188,8 @@ std::vector<ContactImpulses::Contact> ContactImpulses::lasting_contacts(
         contact.friction = one.friction;
         contact.velocity = one.velocity;
         contact.distance = one.distance;
-        // Discs closer than the rest gap need not separate, because impulses would grow if they
-        // cannot.
+        // Discs closer than the rest gap need not move apart, because impulses would increase
+        // without end if the discs cannot.
         contact.approach = std::max(one.gap - rest_gap_, 0.0) / interval_;
         contact.mass = 1 / (1 / species_.of(a.id).mass +
                             (is_pair ? 1 / species_.of(discs[one.b].id).mass : 0));
@@ -208,7 +208,7 @@ std::vector<ContactImpulses::Contact> ContactImpulses::lasting_contacts(
     return contacts;
 }
 
-/// Sorts contacts by connected component, and within a component from the lowest up.
+/// Sorts contacts by connected component, and within each component by height, lowest first.
 std::vector<ContactImpulses::Part> ContactImpulses::connected_parts(std::vector<Contact>& contacts,
                                                                     std::size_t n) const {
     std::vector<std::uint32_t> root(n);

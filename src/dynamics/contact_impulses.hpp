@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact dynamics at a sync: the impulses that keep slow discs from colliding until the next one.
+// Contact dynamics at a sync: impulses that keep slow discs from colliding until the next sync.
 //
 // A disc falls by g T^2 / 2 between two syncs. A disc that lies on others would so collide again
 // and again. Instead it gets at the sync the impulse that its supports give it in the whole time T,
@@ -8,18 +8,18 @@
 // impulses P at the contacts are such that
 //
 //   gap + T w_n >= rest gap,   P_n >= 0,   with equality in at least one of the two;
-//   |P_t| <= mu P_n, against slip
+//   |P_t| <= mu P_n, directed against the slip
 //
 // A disc of a heap then has w = 0: it flies up by g T^2 / 8 and is back at the next sync. All discs
-// of the heap do so together, so none meets another one, and the heap costs nothing. Pairs that
-// approach faster than `speed` are no lasting contacts, and collide. So do all pairs whose impulses
-// are not accurate, so that an inaccurate impulse never makes an overlap.
+// of the heap move together, so they do not collide and cost nothing. Pairs that approach faster
+// than `speed` are not lasting contacts, and collide. Pairs with inaccurate impulses collide, too,
+// so that such an impulse never makes an overlap.
 //
 // Gauss-Seidel sweeps with over-relaxation go over the contacts from the lowest up. They end when
 // impulses have converged, or after a number of sweeps. Then discs in contact that are left with
 // less than `least_motion` of g T stop (w = 0), so that a heap at rest repeats its state bit by
 // bit. The result is a function of the discs in the order of ids, so all ranks have the same bits.
-// Price: some 10 ns for each contact and sweep.
+// Cost: some 10 ns for each contact and sweep.
 #pragma once
 
 #include <array>
@@ -49,7 +49,7 @@ struct KeptImpulse {
 
 struct LastingForces {
     std::vector<PairImpulse> pairs;
-    std::vector<WallImpulse> walls; ///< of the four sides, then of the rows of fixed bodies
+    std::vector<WallImpulse> walls; ///< impulses of the four sides, then of rows of fixed bodies
     int n_sweeps = 0;               ///< largest number of sweeps that a connected component needed
 };
 
@@ -57,12 +57,12 @@ class ContactImpulses {
 public:
     static constexpr double least_motion = 0.01;
 
-    /// `effects` have times in micro-steps, as `interval`. The acceleration must not be zero.
+    /// `effects` and `interval` have times in micro-steps. The acceleration must not be zero.
     ContactImpulses(const Box& box, const Effects& effects, const SpeciesTable& species,
                     double interval);
 
     /// Gives new velocities and spins to `discs`, which are in the order of ids. `kept` are the
-    /// impulses of the last sync, and become those of this one.
+    /// impulses of the last sync, which this sync replaces by its own ones.
     LastingForces act(std::span<HeapDisc> discs, std::vector<KeptImpulse>& kept) const;
 
 private:
@@ -94,8 +94,8 @@ private:
     LastingContactFinder finder_;
     Effects effects_;
     SpeciesTable species_;
-    std::vector<BodyRow> rows_;                 ///< of fixed bodies
-    std::vector<std::uint32_t> rows_of_pieces_; ///< the scene's rows of fixed bodies
+    std::vector<BodyRow> rows_;                 ///< rows of fixed bodies
+    std::vector<std::uint32_t> rows_of_pieces_; ///< row in `rows_` of each piece of a body
     double interval_, pull_;
     double fall_x_, fall_y_; ///< speed gained in half a sync interval, g T / 2
     double rest_gap_;

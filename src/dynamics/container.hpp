@@ -28,7 +28,7 @@ public:
 
     bool is_rectangle() const { return shape_ == BoxShape::rectangle; }
     double area() const;
-    /// Distance of a position outside of the line; negative inside. Not for rectangles.
+    /// Distance by which a position is outside of the line; negative inside. Not for rectangles.
     double outside(double x, double y) const;
     /// The arcs, in counterclockwise order.
     std::vector<Arc> arcs() const;
@@ -48,22 +48,22 @@ std::vector<Segment> edges_of(const Polygon& polygon);
 std::vector<Segment> all_segments(const FixedBodyList& fixed_bodies, const Box& box);
 /// The scene's arcs, then those of the box's shape.
 std::vector<Arc> all_arcs(const FixedBodyList& fixed_bodies, const Box& box);
-/// The area of the region in which discs move; fixed bodies inside it are not subtracted.
+/// The area of the region in which discs move, fixed bodies inside it included.
 double area_of(const FixedBodyList& fixed_bodies, const Box& box);
 
 /// A row of the scene's lists of fixed bodies, or the wall of the box's shape.
 struct BodyRow {
     std::string_view kind;    ///< "fixed disc", "segment", "polygon", "arc", or Container::name()
     std::uint32_t number = 0; ///< place in its list, from 1 on; 0 for the box's wall
-    double x = 0, y = 0;      ///< position: its centre, or the mean of its corners if it has none
+    double x = 0, y = 0;      ///< its centre, or the mean of its corners if it has no centre
     double length = 0;        ///< length of its line; both faces of a segment or an arc share it
 
     std::string name() const; ///< name for messages, such as "fixed disc 3" or "the round wall"
 };
 /// Rows of all fixed bodies: discs first, then segments, polygons, arcs and the wall.
 std::vector<BodyRow> rows_of(const FixedBodyList& fixed_bodies, const Box& box);
-/// For each disc, each of `all_segments` and each of `all_arcs`, one after the other: its row in
-/// `rows_of`.
+/// The row in `rows_of` of each fixed disc, then of each of `all_segments`, then of each of
+/// `all_arcs`.
 std::vector<std::uint32_t> rows_of_pieces(const FixedBodyList& fixed_bodies, const Box& box);
 
 /// The point of an arc at an angle in degrees. Its bits are the same on every machine.

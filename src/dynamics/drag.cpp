@@ -8,7 +8,7 @@ namespace carrom {
 
 namespace {
 
-/// (1 - exp(-z)) / z by its series, for 0 <= z <= 1/2, where the 16th term is below 2^-60.
+/// (1 - exp(-z)) / z by 17 terms of its series, for 0 <= z <= 1/2; the last one is below 2^-60.
 double short_integral(double z) {
     double sum = 1;
     for (int k = 17; k >= 2; --k) sum = 1 - z / k * sum;
@@ -18,8 +18,8 @@ double short_integral(double z) {
 constexpr int most_halvings =
     2100; ///< enough halvings to bring the product of the two largest doubles below 1/2
 
-/// A time that was halved until the series converges, and the clock and the slowing at this time.
-/// If the time or the rate is infinite, the results are NaN.
+/// Halves a time until the series converges, and gives the clock and the slowing at the halved
+/// time. If the time or the rate is infinite, the results are NaN.
 struct Halving {
     Halving(double rate, double time) {
         for (; rate * time > 0.5 && count < most_halvings; time /= 2) ++count;

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What discs do: a space, bodies and a law, and what surrounds the discs.
+// What discs do: a space, bodies and a law, and the walls and fixed bodies that discs meet.
 //
-//        space (space.hpp)         which image a disc meets, and where it is
+//        space (space.hpp)         which image of a disc another disc meets, and where it is
 //        bodies (bodies.hpp)       radius, mass, speed of the surface
-//        law (law.hpp)             what a meeting does to velocities and spins
+//        law (law.hpp)             how a collision changes velocities and spins
 //      + arithmetic                precision and formula of contacts (arithmetic.hpp)
 //        sides, fixed bodies,
 //        flight                    what else discs meet, and in which frame (surroundings.hpp)
 //
-// Each is a value with a small concept in its own header. The text that uses the first four stands
-// in motion.hpp, and the text about all else that discs meet stands here. Kernels take a dynamics
-// as a template argument. Choices that are made for each pair are template parameters and all
-// others are made at run time, so that few combinations are compiled (all_dynamics.hpp).
+// Each is a value with a small concept in its own header. The code that uses the first four is in
+// motion.hpp, and the code for everything else that discs meet is here. Kernels take a dynamics as
+// a template argument. Choices that are made for each pair are template parameters and all others
+// are made at run time, so that few combinations are compiled (all_dynamics.hpp).
 //
-// Lengths are the scene's. Times are micro-steps since the last sync, on the dynamics' own clock.
-// Places and velocities are those of its frame. Results depend on the stored states alone, so all
-// ranks get the same bits. An effect whose parameters switch it off gives the bits of plain
-// dynamics.
+// Lengths are in the scene's unit. Times are micro-steps since the last sync, on the dynamics' own
+// clock. Positions and velocities are in the dynamics' own frame. Results depend on the stored
+// states alone, so all ranks get the same bits. If the parameters of an effect switch it off, the
+// bits are those of plain dynamics.
 #pragma once
 
 #include <algorithm>
@@ -54,17 +54,17 @@ public:
                                                         Arithmetic::cascade_interval);
     static constexpr double never = carrom::never;
 
-    /// `effects` have times in micro-steps; `radius` is the largest one.
+    /// `effects` have times in micro-steps; `radius` is the largest radius of a disc.
     Dynamics(const Box& box, double radius, const Effects& effects = {},
              ContactFormula formula = ContactFormula::stable)
         : Dynamics(box, radius, effects, formula,
                    SpeciesTable(effects.species, Arithmetic::rounded(radius), effects.swap.is_on()),
                    PairTable(effects.contact)) {}
 
-    /// The part that kernels of a GPU run.
+    /// The part of the dynamics that runs in the kernels of a GPU.
     const Base& motion() const { return *this; }
 
-    /// From now on times count from micro-step `n` of the scene.
+    /// Starts an interval: from now on times count from micro-step `n` of the scene.
     void begin_interval(std::int64_t n) {
         space_.begin_interval(n);
         bodies_.begin_interval(n);
@@ -72,8 +72,8 @@ public:
         flight_.begin_interval(static_cast<double>(n));
     }
 
-    /// From now on all radii are the scene's times `size`. Only for bodies that can grow, in a
-    /// scene that gives radii no rate.
+    /// From now on all radii are the scene's radii times `size`. Only for bodies that can grow, in
+    /// a scene whose radii do not grow at a rate.
     void resize(double size) {
         if constexpr (OfBodies::grow) bodies_.resize(size);
     }
@@ -93,12 +93,12 @@ public:
     Frame frame_at(double time) const { return flight_.at(time); }
     bool has_own_frame() const { return flight_.is_on(); }
     double slowing_at(double time) const { return flight_.slowing_at(time); }
-    /// Turns the state into one in the frame of the next interval.
+    /// Converts a state at `time` to the frame of the next interval.
     void restart_frame(DiscState& disc, double time) const { flight_.restart(disc, time); }
     double jump_at(Axis axis, double time) const { return flight_.jump_at(axis, time); }
     double speed_gained_at(double time) const { return flight_.speed_gained_at(time); }
-    /// See StressSums. Where images move, kinetic stress is relative to the flow, and changes along
-    /// a flight, so it is sampled at syncs instead.
+    /// See StressSums. Where images move, kinetic stress is relative to the flow and changes during
+    /// a flight, so it is sampled at syncs instead, and this integral is 0.
     FlightIntegral flight_integral_at(double time) const {
         if constexpr (has_moving_images) return {};
         return flight_.flight_integral_at(time);
@@ -107,11 +107,11 @@ public:
         return has_moving_images ? 0 : flight_.pair_weight_at(time);
     }
 
-    // Sides. `spin`, here and below, is null where discs do not turn.
+    // Sides. Here and below, `spin` is null if discs do not turn.
 
     Extent extent_at(double time) const { return sides_.extent_at(time); } ///< walls' positions
-    /// A disc that was inside at some time in between, and is within these bounds at the end, has
-    /// met no wall.
+    /// A disc that was inside the walls at some time in [begin, end], and is within these bounds at
+    /// the end, has met no wall in between.
     Extent walls_between(double begin, double end) const {
         return sides_.walls_between(begin, end);
     }
@@ -119,11 +119,11 @@ public:
     double wall_time(const DiscState& disc, Axis axis) const {
         return sides_.wall_time(disc, axis, bodies_.at(disc, disc.tau));
     }
-    /// Returns false only if the disc meets no wall before `time`.
+    /// False means that the disc meets no wall before `time`; true means that it may meet one.
     bool may_meet_wall(const DiscState& disc, double time) const {
         const Body body = bodies_.at(disc, disc.tau);
-        // The product allows for the rounding of times, during which a fast disc flies some
-        // distance.
+        // The product allows for the rounding of times: a fast disc flies some distance in a
+        // rounding error.
         const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy)) +
                                (speed_gained_at(time) + body.outwards);
         const double margin = (tolerance_ + arithmetic_.place_rounding()) +
@@ -146,8 +146,8 @@ public:
                    ? BodyContact{}
                    : fixed_bodies_->first_contact(disc, bodies_.of(disc).radius, times);
     }
-    /// Whether no fixed body is in the way of a disc that flies from one state of this interval's
-    /// start to the other one in this time.
+    /// Whether no fixed body blocks a disc that flies in `time` from one state at the start of this
+    /// interval to the other.
     bool is_way_free(const DiscState& from, const DiscState& to, double time) const {
         if (!has_fixed_bodies()) return true;
         const double radius = bodies_.of(to).radius;
@@ -163,7 +163,7 @@ public:
         advance(there, time);
         return fixed_bodies_->touch(there, body, time, bodies_.at(there, time).radius);
     }
-    /// Reflects the disc from the fixed body that it comes to at `time`.
+    /// Reflects the disc from the fixed body that it meets at `time`.
     Loss bounce_off(DiscState& disc, std::uint32_t body, double time, double since,
                     double* spin = nullptr) const {
         const Body its = bodies_.at(disc, time);

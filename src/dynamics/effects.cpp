@@ -12,8 +12,9 @@
 namespace carrom {
 
 bool Effects::have_plain_boundaries() const {
-    return std::all_of(boundaries.begin(), boundaries.end(),
-                       [](const Boundary& side) { return side.is_plain(); });
+    for (std::size_t side = 0; side < boundaries.size(); ++side)
+        if (!boundaries[side].is_plain() || !surface_contacts.rows[side].empty()) return false;
+    return true;
 }
 
 bool Effects::have_open_boundaries() const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The effects of a scene beyond free flight, elastic pairs and four elastic walls, as numbers.
-// law.hpp, bodies.hpp, boundaries.hpp, falling_frame.hpp, drag.hpp and fixed_bodies.hpp say what
-// they do.
+// The numbers of a scene's effects: everything beyond free flight, elastic pairs and four elastic
+// walls. law.hpp, bodies.hpp, boundaries.hpp, falling_frame.hpp, drag.hpp and fixed_bodies.hpp
+// describe what the effects do.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace carrom {
 /// What two touching discs do to each other.
 enum class ContactKind { elastic, none, restitution, rough };
 
-/// Whether two numbers of rows are equal. NaN is a number that a row leaves out.
+/// Whether two numbers of rows are equal. NaN stands for a number that a row does not give.
 inline bool is_same_number(double a, double b) {
     return a == b || (std::isnan(a) && std::isnan(b));
 }
@@ -49,7 +49,7 @@ struct ContactPair {
     }
 };
 /// A row of `contacts` of a side or of the obstacles: numbers for discs of one row of
-/// `discs.species`, counted from 1. NaN where those of all discs hold.
+/// `discs.species`, counted from 1. NaN: the number of the surface for all discs is used.
 struct SurfaceContact {
     double species = 1;
     double restitution = 1, tangential_restitution = -1, friction = 0;
@@ -71,8 +71,8 @@ struct SpeciesRow {
 struct ContactEffect {
     ContactKind kind = ContactKind::elastic;
     double restitution = 1;  ///< share of the normal relative velocity that remains, 0 to 1
-    double contact_time = 0; ///< a disc that has collided within this time collides elastically; 0
-                             ///< if a length takes its place (contact_guard.hpp); event-driven
+    double contact_time = 0; ///< for this time after a collision a disc collides elastically; 0: a
+                             ///< length is used instead (contact_guard.hpp); for the event-driven
                              ///< method only
     // For rough discs:
     /// Minus the share of the surfaces' relative velocity that remains where they stick, -1
@@ -94,17 +94,17 @@ struct ContactEffect {
 /// The kinds of sides. Each kind has a file in scene/boundaries.
 enum class BoundaryKind { wall, thermal, moving, oscillating, open, periodic, sheared };
 
-/// The words for them in scenes, in the order of BoundaryKind.
+/// The words for kinds of sides in scenes, in the order of BoundaryKind.
 inline constexpr auto boundary_words = std::to_array<std::string_view>(
     {"wall", "thermal", "moving", "oscillating", "open", "periodic", "sheared"});
 
-/// What a wall or a fixed body does along its surface (rubbing.hpp).
+/// How a wall or a fixed body acts along its surface (rubbing.hpp).
 struct Surface {
-    /// What the surface does to the slip, as between rough discs; -1 is smooth
+    /// Tangential restitution of the contact, as between rough discs; -1 is a smooth surface
     double tangential_restitution = -1;
     double friction = std::numeric_limits<double>::infinity();
-    double velocity = 0; ///< of sides along +x or +y, of fixed bodies counterclockwise around
-                         ///< themselves, of arcs around their centres; thermal sides have one, too
+    double velocity = 0; ///< velocity of the surface: of sides (thermal ones, too) along +x or +y,
+                         ///< of fixed bodies counterclockwise, of arcs around their centres
 
     /// Whether the surface can change spins or tangential velocities.
     bool rubs() const { return tangential_restitution != -1 && friction != 0; }
@@ -130,14 +130,14 @@ struct Boundary {
     // For oscillating walls (oscillation.hpp):
     double amplitude = 0;
     double period = 1;
-    double phase = 0; ///< angle at the start
+    double phase = 0; ///< phase at the scene's start
     Surface surface{};
     Inlet inlet{}; ///< the inlet of an open side
 
     bool is_plain() const {
         return kind == BoundaryKind::wall && restitution == 1 && !surface.rubs();
     }
-    /// Whether the box repeats itself beyond it.
+    /// Whether the box repeats itself beyond the side.
     bool is_periodic() const {
         return kind == BoundaryKind::periodic || kind == BoundaryKind::sheared;
     }
@@ -150,11 +150,11 @@ inline constexpr std::array<const char*, 4> boundary_names = {"left", "right", "
 /// A uniform acceleration, as gravity gives.
 struct Acceleration {
     double x = 0, y = 0;
-    // A second part, amplitude sin(2 pi t / period + phase), with t since the scene's start
-    // (sway.hpp):
+    // A part that changes in time, amplitude sin(2 pi t / period + phase), with t since the scene's
+    // start (sway.hpp):
     double amplitude_x = 0, amplitude_y = 0;
     double period = 1;
-    double phase_x = 0, phase_y = 0; ///< angles at the start
+    double phase_x = 0, phase_y = 0; ///< phases at the scene's start
 
     bool is_steady() const { return x != 0 || y != 0; }
     bool sways() const { return amplitude_x != 0 || amplitude_y != 0; }
@@ -227,7 +227,7 @@ struct FixedBodyList {
     friend bool operator==(const FixedBodyList&, const FixedBodyList&) = default;
 };
 
-/// What keeps discs moving, at syncs (scene/effects/thermostat.cpp). Rates are per step.
+/// How discs are kept in motion, at syncs (scene/effects/thermostat.cpp). Rates are per step.
 enum class ThermostatKind { none, kicks, andersen, langevin, rescale };
 
 struct Thermostat {
@@ -298,7 +298,7 @@ private:
     std::map<std::string, double, std::less<>> numbers_;
 };
 
-// Whether a member of Effects is on.
+// Whether a feature of Effects is on.
 inline bool is_feature_on(double rate) { return rate != 0; }
 inline bool is_feature_on(const std::vector<Species>& species) { return !species.empty(); }
 inline bool is_feature_on(const std::array<Boundary, 4>& sides) {
@@ -319,7 +319,7 @@ struct Effects {
     SurfaceContacts surface_contacts{};
     std::vector<Species>
         species{};     ///< in the order of ids; empty if all discs have the same radius and mass 1
-    double growth = 0; ///< radii grow by this share of their first value per time
+    double growth = 0; ///< growth of radii per time, as a share of the radii at the start
     double shear = 0;  ///< rate at which vx grows with y between sheared sides
     /// Pairs that approach more slowly have lasting contacts from sync to sync
     /// (contact_impulses.hpp); 0 means none.
@@ -331,7 +331,7 @@ struct Effects {
     OwnNumbers own{};
     ExternalField field{};
 
-    /// All features; seeds belong to them.
+    /// All features. Seeds are left out, because a seed alone has no effect.
     auto features() const {
         return std::tie(contact, boundaries, gravity, drag, fixed_bodies, surface_contacts, species,
                         growth, shear, lasting_speed, thermostat, activity, swap, barostat, own,
@@ -342,6 +342,7 @@ struct Effects {
     /// Whether velocities change only in collisions and at syncs.
     bool are_flights_free() const { return !acceleration().is_on() && drag == 0; }
     bool have_spins() const { return contact.kind == ContactKind::rough; }
+    /// Whether all sides are elastic walls at rest that do not rub, for discs of all species.
     bool have_plain_boundaries() const;
     bool have_open_boundaries() const;
     /// The reader of scenes ensures that opposite sides are periodic together.
@@ -358,11 +359,11 @@ struct Effects {
     double flow_at(double y, const Box& box) const {
         return are_sheared() ? shear * (y - box.y / 2) : 0;
     }
-    /// The rate at which radii change between collisions, as a share of their first values.
+    /// The rate at which radii grow between collisions, as a share of the radii at the start.
     double rate_of_radii() const { return growth; }
-    /// The factor by which radii have grown at `time` since the scene's start.
+    /// The factor by which radii have grown from the scene's start to `time`.
     double size_at(double time) const { return 1 + growth * time; }
-    /// Makes the radii at that size the first ones.
+    /// Takes radii that have grown by the factor `size` as the new radii at the start.
     void begin_at(double size) { growth /= size; }
     bool are_any() const {
         return std::apply([](const auto&... all) { return (is_feature_on(all) || ...); },
@@ -371,16 +372,16 @@ struct Effects {
     friend bool operator==(const Effects&, const Effects&) = default;
 };
 
-/// The columns of numbers that discs have beside their states under these effects.
+/// The numbers that discs have besides their states under these effects.
 SideColumnSet side_columns_of(const Effects& effects);
 
-/// The part about species of a line for a summary; empty without species. `summary_of`
+/// The part of a summary line that describes the species; empty without species. `summary_of`
 /// (scene/effects/effect.hpp) writes the whole line.
 std::string description(const std::vector<Species>& species);
 
-/// Positions of the walls at `time` since the scene's start, in a box that was `box` then.
+/// Positions of the walls at `time` since the scene's start; `box` is the box at the start.
 Extent extent_at(const Effects& effects, const Box& box, double time);
-/// The lines of the walls. Lines of oscillating walls are moved inwards by this many amplitudes.
+/// The lines of the walls; an oscillating wall's is moved inwards by this many of its amplitudes.
 Extent extent_of_lines(const Effects& effects, const Box& box, double time,
                        double amplitudes_inwards = 0);
 

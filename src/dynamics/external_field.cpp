@@ -30,7 +30,7 @@ std::vector<double> round_coefficients(const std::vector<double>& f) {
     return c;
 }
 
-/// Solves these equations on a line whose ends have no curvature, so that c = f there. The
+/// Solves the same equations on a line whose ends have no curvature, so that c = f there. The
 /// elimination needs no pivots, because the matrix is diagonally dominant.
 std::vector<double> line_coefficients(const std::vector<double>& f) {
     const std::size_t n = f.size();
@@ -128,8 +128,8 @@ FieldPoint FieldSpline::at(double x, double y, const Box& box) const {
     return sum;
 }
 
-/// A derivative is a weighted mean of differences of coefficients with positive weights. The
-/// eigenvalues of the matrix of second derivatives are at most the sum of the magnitudes in a row.
+/// A second derivative is a weighted mean of differences of coefficients, with positive weights.
+/// The eigenvalues of the matrix of second derivatives are at most the sum of magnitudes in a row.
 double FieldSpline::largest_curvature(const Box& box) const {
     if (!data_) return 0;
     const double hx = box.x / data_->x.n_intervals(), hy = box.y / data_->y.n_intervals();

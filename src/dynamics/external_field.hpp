@@ -6,11 +6,11 @@
 //
 // Between the points of a grid the potential is the cubic spline through all numbers (C. de Boor, A
 // Practical Guide to Splines (1978)), a product of cubic B-splines along x and y. It has two
-// continuous derivatives, and the force is the exact derivative of it; otherwise a disc would lose
-// or gain energy in each cell that it crosses. Along a periodic axis the spline is periodic.
-// Between walls its second derivative is 0 at both ends, and beyond them it goes on as a line.
+// continuous derivatives, and the force is its exact derivative, because otherwise a disc would
+// lose or gain energy in each cell that it crosses. Along a periodic axis the spline is periodic.
+// Between walls its second derivative is 0 at both ends, and beyond the ends it is a straight line.
 //
-// All is + - * / and sqrt in a fixed order, so the bits are the same on every machine.
+// The code uses only + - * / and sqrt in a fixed order, so bits are the same on every machine.
 #pragma once
 
 #include <cstddef>
@@ -108,9 +108,9 @@ struct ExternalField {
     std::string file;   ///< file with the values on a grid; relative to the scene
     FieldValues values; ///< values on a grid
     FieldSpline spline; ///< spline through the values; made when a scene is read
-    /// The potential of a disc is that of strength 1 times its strength. One strength for each
-    /// species, or empty if all are 1. `ends` are the ends of the species' ids; made when a scene
-    /// is read.
+    /// The strength of each species, by which the potential is multiplied; empty if all
+    /// strengths are 1. `ends` are the ends of the species' ids. Both are made when a scene is
+    /// read.
     std::vector<double> strengths;
     std::vector<DiscId> ends;
 
@@ -121,7 +121,7 @@ struct ExternalField {
     FieldPoint at(double x, double y, const Box& box) const;
     /// Bounds the second derivative along any direction, for a disc of strength 1.
     double largest_curvature(const Box& box) const;
-    /// About the largest energy that a disc of strength 1 can gain in the box, and not less.
+    /// An upper estimate of the energy that a disc of strength 1 can gain in the box.
     double depth(const Box& box) const;
     double largest_strength() const;
 

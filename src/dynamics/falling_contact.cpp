@@ -11,12 +11,12 @@ double falling_contact(double dx, double dy, double wx, double wy, double gx, do
     const Parabola flight{dx, dy, wx, wy, gx, gy, reach};
     const auto rate = [&flight](double s) { return flight.rate(s); };
     double start = 0; // beginning of the present piece
-    double fall = 0;  // time since which the distance falls, if it does
+    double fall = 0;  // time since which the distance decreases, if it does
     bool falls = flight.rate(0).value < 0;
     const auto [first, second] = flight.bends();
     for (const double bend : {first, second, never}) {
         if (!(bend > start)) continue;
-        if (bend == never && !falls) return never; // the distance grows ever faster
+        if (bend == never && !falls) return never; // the distance increases faster and faster
         const double end = bend == never ? flight.late(start) : bend;
         const bool falls_at_end = bend != never && flight.rate(end).value < 0;
         if (falls != falls_at_end) {

@@ -5,16 +5,16 @@
 // The squared distance is a quartic of the time. The roots of its second derivative divide time
 // into pieces on which the first derivative is monotone, and the roots of the first derivative
 // divide it into pieces on which the distance is monotone. Each piece has at most one root, which
-// Newton's rule or bisection finds in a bracket. Only + - * / and sqrt in a fixed order are used,
-// so the bits are the same on every machine. Price: some 20 divisions a root.
+// Newton's rule or bisection finds. The code uses only + - * / and sqrt in a fixed order, so the
+// bits are the same on every machine. Cost: some 20 divisions a root.
 #pragma once
 
 namespace carrom {
 
-/// The first time s >= 0 at which |d + w s + g s^2 / 2| is not above `reach` and falls; infinite if
-/// there is none. Touching counts while the distance falls, not while it grows. If rounding has
-/// left the point within `reach`, the contact is when it next turns back. A graze that is lost to
-/// rounding does not count. g must not be zero.
+/// The first time s >= 0 at which |d + w s + g s^2 / 2| is at most `reach` and decreases; infinite
+/// if there is none. If rounding has left the point within `reach` and the distance increases, the
+/// contact is when the distance next begins to decrease. A graze that is lost to rounding does not
+/// count. g must not be zero.
 double falling_contact(double dx, double dy, double wx, double wy, double gx, double gy,
                        double reach);
 

@@ -12,7 +12,7 @@ namespace {
 
 /// A lower bound of 1 - c s for contacts.
 constexpr double least_slowing = 0.01;
-/// Newton's rule needs four to twelve.
+/// Limit of Newton's steps; four to twelve are needed.
 constexpr int most_steps = 100;
 
 /// (-log(1 - q) - q) / q^2 for q up to 1/4: with z = q / (2 - q) it is (1 + 2 z (1/3 + z^2/5 +
@@ -29,15 +29,15 @@ double short_fall(double q) {
 double dragged_fall(double rate, double clock) {
     const double q = rate * clock;
     if (!(q > 0.25)) return clock * clock * short_fall(q);
-    // After half the time the clock has 1 - c s' = sqrt(1 - c s), so F(s) = 2 F(s') + s'^2, a sum
-    // of positive terms.
+    // After half the time the clock shows s' with 1 - c s' = sqrt(1 - c s), so F(s) = 2 F(s') +
+    // s'^2, which is a sum of positive terms.
     const double half = clock / (1 + std::sqrt(1 - q));
     return 2 * dragged_fall(rate, half) + half * half;
 }
 
 double dragged_fall_delay(double distance, double velocity, double pull, double rate) {
-    // F(s) >= s^2 / 2, so the contact of the parabola is too late if the disc is pulled to the
-    // wall, and too early if it is pulled away.
+    // Because F(s) >= s^2 / 2, the contact time of the parabola is too late if the disc is pulled
+    // to the wall, and too early if it is pulled away.
     double s = fall_delay(distance, velocity, pull);
     if (pull == 0 || s == 0) return s;
     const double latest = (1 - least_slowing) / rate;
@@ -94,7 +94,7 @@ FlightIntegral FallingFrame::flight_integral_at(double time) const {
 namespace {
 
 /// Nodes and weights of Gauss's rule with eight points from -1 to 1. A flight lasts at most an
-/// eighth of a period, for which the error is below a rounding.
+/// eighth of a period, for which the rule's error is below the rounding error.
 constexpr std::array<double, 4> gauss_nodes = {0.1834346424956498, 0.5255324099163290,
                                                0.7966664774136267, 0.9602898564975363},
                                 gauss_weights = {0.3626837833783620, 0.3137066458778873,
@@ -102,8 +102,8 @@ constexpr std::array<double, 4> gauss_nodes = {0.1834346424956498, 0.52553240991
 
 } // namespace
 
-/// `rest_x`, `rest_y` and `more_y` are the Cholesky factor, a triangular matrix, of the integral of
-/// (u - mean)(u - mean)^T, where u is the frame's velocity.
+/// `rest_x`, `rest_y` and `more_y` are the triangular Cholesky factor of the integral of (u -
+/// mean)(u - mean)^T, where u is the frame's velocity.
 FlightIntegral FallingFrame::swaying_flight_integral_at(double time) const {
     const Frame end = moving_at(time);
     const double mean_x = end.x / time, mean_y = end.y / time;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A uniform acceleration, alone or with linear drag (drag.hpp).
 //
-// All discs fall alike, so states are stored in a frame that falls with them. At each
-// sync it is at rest in the box. In it discs fly straight, and pairs need not know of
-// it. A wall rises in it, so a disc meets a wall at the root of a quadratic.
+// All discs have the same acceleration, so states are stored in a frame that falls with them and is
+// at rest in the box at each sync. Discs fly straight in this frame, so collisions of pairs do not
+// depend on the fall. A wall rises in it, and a disc meets a wall at the root of a quadratic.
 //
 // With drag of the rate c the frame has its own clock s. A disc under the acceleration g is at x +
-// v s + g F(s), F = (-log(1 - c s) - c s) / c^2, which is s^2 / 2 and more. So all discs share the
-// fall. The parabola's time bounds a contact from one side, and Newton's rule approaches the
-// contact from there without passing it, in a handful of steps and without a bracket. Only + - * /
-// and sqrt in a fixed order are used, so the bits are the same on every machine.
+// v s + g F(s), with F = (-log(1 - c s) - c s) / c^2 >= s^2 / 2. The term g F(s) is the same for
+// all discs. The contact time of the parabola is a bound, from which Newton's rule approaches the
+// contact from one side in a handful of steps, without a bracket. The code uses only + - * / and
+// sqrt in a fixed order, so the bits are the same on every machine.
 //
 // An acceleration that changes in time moves the frame in another way (sway.hpp), without drag.
 #pragma once
@@ -27,9 +27,9 @@
 
 namespace carrom {
 
-/// The first time at which distance + velocity t + pull t^2 / 2 is not positive and falls; infinite
-/// if there is none. Touching counts while it falls, not while it grows. No nearly equal numbers
-/// are subtracted.
+/// The first time at which distance + velocity t + pull t^2 / 2 is not positive and decreases;
+/// infinite if there is none. A disc that touches the wall meets it only while this distance
+/// decreases. No nearly equal numbers are subtracted.
 inline double fall_delay(double distance, double velocity, double pull) {
     if (velocity < 0) {
         if (!(distance > 0)) return 0;
@@ -39,8 +39,8 @@ inline double fall_delay(double distance, double velocity, double pull) {
                           : never; // the pull turns the disc back before it reaches the wall
     }
     if (!(pull < 0)) return never;
-    // The disc comes back. If rounding has left it beyond the wall, it first comes up to the wall,
-    // or else turns back where it is.
+    // The disc comes back. If rounding has left it beyond the wall, the contact is the later root,
+    // or the turning point if there is no root.
     return (velocity + std::sqrt(std::max(velocity * velocity - 2 * pull * distance, 0.0))) / -pull;
 }
 
@@ -49,18 +49,18 @@ double dragged_fall(double rate, double clock);
 /// The derivative of F, s / (1 - c s).
 inline double dragged_fall_speed(double rate, double clock) { return clock / (1 - rate * clock); }
 
-/// Like fall_delay, for distance + velocity s + pull F(s), on drag's clock from now on. Contacts
-/// after velocities have fallen to less than a hundredth do not count, because a sync comes before.
+/// Like fall_delay, for distance + velocity s + pull F(s), on drag's clock from now on. Contacts at
+/// which velocities are below a hundredth are ignored, because a sync comes before them.
 double dragged_fall_delay(double distance, double velocity, double pull, double rate);
 
-/// The frame that falls with the discs, and its clock. Times are on the clock, since the last sync.
+/// The frame that falls with the discs, and its clock, which gives the times since the last sync.
 class FallingFrame {
 public:
     /// `effects` have times in micro-steps.
     explicit FallingFrame(const Effects& effects)
         : acceleration_(effects.acceleration()), drag_(effects.drag), sway_(acceleration_) {}
 
-    /// From now on times count from micro-step `n` of the scene.
+    /// Starts an interval: from now on times count from micro-step `n` of the scene.
     void begin_interval(double n) { sway_.begin_interval(n); }
 
     double clock_at(double micro_steps) const;
@@ -84,7 +84,7 @@ public:
     /// The integral of v_a v_b over flights since the sync (core/flight_integral.hpp). It does not
     /// use the C library, so its bits are the same on every machine.
     FlightIntegral flight_integral_at(double time) const;
-    /// The weight of flight_integral_at divided by slowing_at: the factor of impulses in the box.
+    /// The weight of flight_integral_at divided by slowing_at: a factor for impulses in the box.
     double pair_weight_at(double time) const {
         return drag_ == 0 ? time : time * (1 - 0.5 * drag_ * time) / slowing_at(time);
     }
@@ -92,11 +92,11 @@ public:
     /// The frame's origin and velocity in the box.
     Frame at(double time) const {
         if (is_on()) return moving_at(time);
-        Frame at_rest; // returned at once, because it is needed often
+        Frame at_rest; // returned without computation, because it is needed often
         at_rest.clock = time;
         return at_rest;
     }
-    /// Turns a state advanced to `time` into one in a frame that starts there at rest in the box.
+    /// Converts a state advanced to `time` to a frame that is at rest in the box at that time.
     void restart(DiscState& disc, double time) const { disc = at(time).in_box(disc, time); }
     /// The largest distance by which the frame jumps along `axis` at a sync at `time`.
     double jump_at(Axis axis, double time) const {

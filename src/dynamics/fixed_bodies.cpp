@@ -12,16 +12,16 @@ namespace carrom {
 
 namespace {
 
-/// A disc in the box may touch the body or one of the eight images around it.
+/// A disc in the box may touch the body or one of its eight images in neighbouring boxes.
 constexpr std::uint32_t n_images = 9;
 
-/// The least slope at which a disc leaves the inner face of an arc, because along the face it would
-/// meet it all the time. It changes energies by less than the rounding of a thousand collisions.
+/// The least slope at which a disc leaves the inner face of an arc, because a disc that flies along
+/// the face collides without end. The change of energy is below the rounding of 1000 collisions.
 constexpr double least_slope = 1e-6;
 
-/// The first time at which a distance with the initial `rate` and a constant acceleration falls to
-/// 0. If the distance is not positive, on the body's own `side` the time at which it turns back
-/// counts; on the other side it must become positive first.
+/// The first time at which a distance with the initial `rate` and a constant acceleration `pull`
+/// falls to 0. If the distance is not positive and the disc is on this side of the body, it is the
+/// time at which the disc turns back; on the other side the distance must become positive first.
 double fall_delay(double distance, double rate, double pull, bool is_on_side) {
     if (rate < 0) {
         if (!(distance > 0)) return is_on_side ? 0 : never;
@@ -45,7 +45,7 @@ FixedBodies::FixedBodies(const Box& box, double largest_radius, const Effects& e
       largest_radius_(largest_radius), rows_of_bodies_(rows_of(effects.fixed_bodies, box)) {
     add_bodies(effects.fixed_bodies);
     const auto n = static_cast<double>(bodies_.size());
-    // Nearly square cells, as many as in a square box, with more of them along the longer side.
+    // Nearly square cells: about as many as in a square box, more of them along the longer side.
     const double stretch = std::sqrt(box.x / box.y);
     const auto cells = [n](double length, double factor, double period) {
         const double number = std::floor(std::clamp(std::sqrt(2 * n), 4.0, 4096.0) * factor);
@@ -54,7 +54,7 @@ FixedBodies::FixedBodies(const Box& box, double largest_radius, const Effects& e
     };
     columns_ = cells(box.x, stretch, periods_.x);
     rows_ = cells(box.y, 1 / stretch, periods_.y);
-    // Much larger than the rounding of positions and times.
+    // The margin is much larger than the rounding of positions and times.
     margin_ = 1e-6 * std::max(columns_.width, rows_.width) + 1e-9 * box.longest();
     sort_into_cells();
 }
@@ -126,7 +126,7 @@ Extent FixedBodies::extent_of(const Body& body, double radius, Shift shift) cons
 }
 
 /// Returns false for cells that an oblique line or an arc's circle does not touch. Cells at the
-/// border also contain the positions beyond.
+/// border of the box also contain the positions beyond it.
 bool FixedBodies::may_hold(const Body& body, std::int64_t column, std::int64_t row) const {
     const bool is_at_border = std::min(column, row) == 0 || column + 1 == columns_.n ||
                               row + 1 == rows_.n;
@@ -162,7 +162,7 @@ void FixedBodies::sort_into_cells() {
     visit([this, &ends](std::size_t cell, const Entry& entry) { in_cells_[ends[cell]++] = entry; });
 }
 
-/// Calls what(image) for the images in the cells, perhaps several times for each.
+/// Calls what(image) for the images of bodies in the cells, perhaps more than once for an image.
 template <class What> void FixedBodies::visit_cells(const Cells& cells, const What& what) const {
     for (std::int64_t column = cells.first_column; column <= cells.last_column; ++column) {
         const std::int64_t x = columns_.box_of(column);
@@ -182,9 +182,9 @@ template <class What> void FixedBodies::visit_cells(const Cells& cells, const Wh
     }
 }
 
-/// The body's number; in a periodic box a number for each of nine images. The image follows from
-/// the box that contains the centre (x, y) of the touching disc, with the path that it has fallen,
-/// so the number is a function of the disc's state, in whichever box that is stored.
+/// The number of the touched image of the body; without periodic sides the number of the body.
+/// Images are numbered relative to the box that contains the centre (x, y) of the disc after its
+/// fall, so the number is the same in whichever box the disc's state is stored.
 std::uint32_t FixedBodies::code_of(const Entry& image, double x, double y) const {
     if (!periods_.are_any()) return image.body;
     const int dx = periods_.x == 0 ? 0 : image.x - static_cast<int>(std::floor(x / periods_.x));
@@ -255,7 +255,7 @@ Extent FixedBodies::path_of(const DiscState& disc, double begin, double end) con
             std::max(y0, y1) + y_bend};
 }
 
-/// The number of parts of a flight in each of which the disc moves by at most about a cell.
+/// The number of parts of a flight such that the disc moves by at most about a cell in each.
 double FixedBodies::slices_of(const DiscState& disc, double begin, double end) const {
     const auto speed = [&](double v, std::size_t axis) {
         return std::max(std::fabs(v + pull_[axis] * begin), std::fabs(v + pull_[axis] * end));
@@ -333,7 +333,7 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     const double normal = nx * (disc.vx + pull_[0] * time) + ny * (disc.vy + pull_[1] * time);
     const bool is_guarded = guard_.holds_at_wall(since, std::fabs(normal), turning.radius);
     double away = (is_guarded ? 1 : restitution) * std::fabs(normal);
-    // A disc that is pulled back leaves fast enough to stay away for a contact time, as at walls.
+    // A disc that is pulled back leaves so fast that it stays away for a contact time, as at walls.
     double pull = -(nx * pull_[0] + ny * pull_[1]);
     const auto speed_along = [&] {
         return nx * (disc.vy + pull_[1] * time) - ny * (disc.vx + pull_[0] * time);
@@ -357,7 +357,7 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     return loss;
 }
 
-/// Negative infinity if an arc is in another direction, because its ends are bodies of their own.
+/// Negative infinity beyond the ends of an arc, because its ends are bodies of their own.
 double FixedBodies::overlap_of(const Body& body, double x, double y, double radius) const {
     if (body.is_arc) {
         const double dx = x - body.x, dy = y - body.y, distance = std::sqrt(dx * dx + dy * dy);

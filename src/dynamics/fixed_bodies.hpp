@@ -36,7 +36,7 @@ struct BodyContact {
     static constexpr std::uint32_t no_body = 0xffffffff;
 
     double time = std::numeric_limits<double>::infinity();
-    /// Number of the body, or of one of its nearest images; see FixedBodies::code_of
+    /// Number of the body or of one of its nearest images; see FixedBodies::code_of
     std::uint32_t body = no_body;
 
     bool exists() const { return body != no_body; }
@@ -45,9 +45,9 @@ struct BodyContact {
 /// The range of times in which contacts count, since the last sync.
 struct ContactTimes {
     double from = 0, to = 0;
-    bool hold_from = true;                       ///< whether a contact at `from` itself counts
-    std::uint32_t except = BodyContact::no_body; ///< the body that the disc has just left; contacts
-                                                 ///< with it at the disc's own time do not count
+    bool hold_from = true;                       ///< whether a contact exactly at `from` counts
+    std::uint32_t except = BodyContact::no_body; ///< the body that the disc has just left; no
+                                                 ///< contact with it counts at the disc's own time
 };
 
 /// A place where a disc touches a body.
@@ -62,18 +62,18 @@ public:
     /// `effects` have times in micro-steps; no disc is larger than `largest_radius`.
     FixedBodies(const Box& box, double largest_radius, const Effects& effects);
 
-    /// The first body that a disc of that radius meets within these times. If it meets two at once,
-    /// the lower number counts.
+    /// The first body that a disc of that radius meets within these times. If the disc meets two
+    /// bodies at the same time, the one with the lower number counts.
     BodyContact first_contact(const DiscState& disc, double radius,
                               const ContactTimes& times) const;
 
-    /// Reflects a disc that has met the body with the contact's number `code` at `time`, which is
-    /// the disc's own time now; its last collision was `since` before. Returns the loss for a mass
-    /// of 1.
+    /// Reflects a disc that meets the body with the contact's number `code` at `time`. The state is
+    /// advanced to `time` already, and the disc's last collision was `since` before. Returns the
+    /// loss for a mass of 1.
     Loss rebound(DiscState& disc, std::uint32_t code, double time, double since,
                  const Turning& turning) const;
 
-    /// Where a disc that has met the body `code` at `time`, its own time now, touches it.
+    /// Where a disc whose state is at `time` touches the body with the contact's number `code`.
     BodyTouch touch(const DiscState& disc, std::uint32_t code, double time, double radius) const;
 
     bool are_any() const { return !bodies_.empty(); }
@@ -82,8 +82,8 @@ public:
         double depth = 0;
         std::uint32_t body = BodyContact::no_body; ///< the same for all images of a body
     };
-    /// The body that a disc of that radius at (x, y) in the box overlaps most deeply, by more than
-    /// `least`; otherwise, or without bodies, `no_body`.
+    /// The body with which a disc of that radius at (x, y) in the box overlaps most, if the overlap
+    /// is more than `least`; otherwise, or without bodies, `no_body`.
     Overlap deepest_overlap(double x, double y, double radius, double least) const;
     bool do_overlap(double x, double y, double radius) const {
         return are_any() && deepest_overlap(x, y, radius, 0).body != BodyContact::no_body;
@@ -97,13 +97,13 @@ private:
         double x, y;                       ///< the centre of a disc, or one end of a line
         double radius;                     ///< radius of a fixed disc; 0 for a line
         double ux = 0, uy = 0, length = 0; ///< direction and length of a line
-        /// Velocity of its surface relative to the scene's key, counterclockwise
+        /// Velocity of the surface, counterclockwise, in units of the scene's value for surfaces
         double slides = 1;
         bool is_arc = false;
         ArcSpan span{}; ///< directions that an arc covers
         bool is_line() const { return length > 0; }
     };
-    /// Numbers of cells along both axes. They continue beyond a periodic side.
+    /// Ranges of cells along both axes. The numbers of cells continue beyond a periodic side.
     struct Cells {
         std::int64_t first_column, last_column, first_row, last_row;
     };
@@ -158,9 +158,9 @@ private:
     Container container_;
     Periods periods_;
     double largest_radius_; ///< largest radius of a disc
-    /// Fixed discs, then for each segment, edge and arc its line and its two ends
+    /// Fixed discs; then the line and the two ends of each segment, edge and arc
     std::vector<Body> bodies_;
-    std::vector<std::uint32_t> first_bodies_; ///< first body of each row behind the fixed discs
+    std::vector<std::uint32_t> first_bodies_; ///< first body of each row after the fixed discs
     std::vector<BodyRow> rows_of_bodies_;
     CellAxis columns_, rows_;
     double margin_ = 0;

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When two discs touch that fly freely and grow (docs/understanding/effects.md, section 15).
+// When two discs touch that fly freely while they grow (docs/understanding/effects.md, section 15).
 //
 // All radii grow as 1 + g t. In lengths divided by 1 + g t, and with the clock u = t / (1 + g t),
-// discs keep their size, and d + w t becomes d + (w - g d) u: they still fly straight. So the
-// predicate is that of constant sizes (pair_contact.hpp), with w - g d in place of w. Each
-// component of it is rounded once, by a fused multiply-add. The cross product is taken of d and w
-// for any g, so that this rounding does not affect a graze. No bit depends on the order of the pair
-// and the names of the axes. Without growth the bits are those of contact_delay.
+// discs keep their size, and d + w t becomes d + (w - g d) u, so they still fly straight. So the
+// predicate of constant sizes (pair_contact.hpp) is used with w - g d in place of w. Each component
+// of w - g d is rounded once, by a fused multiply-add. The cross product is taken of d and w for
+// any g, so that this rounding does not affect a graze. No bit depends on the order of the pair or
+// the names of the axes. Without growth the bits are those of contact_delay.
 #pragma once
 
 #include "dynamics/pair_contact.hpp"
 
 namespace carrom {
 
-/// Like contact_delay, for a distance `sigma` that grows at the rate `growth` times `sigma`;
-/// `growth` is not negative. The error is that of contact_delay with w - g d, times (1 + g t)^2.
+/// Like contact_delay, for a distance `sigma` that grows at the rate `growth` times `sigma`, with
+/// `growth` >= 0. The error is that of contact_delay for w - g d, times (1 + g t)^2.
 template <class Real>
 [[gnu::always_inline]] CARROM_DEVICE inline Real growing_contact_delay(Real dx, Real dy, Real wx,
                                                                        Real wy, Real sigma,

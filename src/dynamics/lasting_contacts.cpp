@@ -78,8 +78,8 @@ struct LastingContactFinder::Search {
     }
 
     double width() const { return 2 * largest_radius + widest_gap; }
-    /// Cells along one axis, limited so that a dilute gas in a large box has only a few cells per
-    /// disc.
+    /// Largest number of cells along one axis, so that a dilute gas in a large box has only a few
+    /// cells per disc.
     double most_cells() const {
         return std::ceil(4 * std::sqrt(static_cast<double>(discs.size()))) + 1;
     }
@@ -105,7 +105,7 @@ struct LastingContactFinder::Search {
             });
         });
     }
-    /// (dx, dy) points from the centre of disc i to a body of this radius.
+    /// Adds a contact; (dx, dy) points from the centre of disc i to a body of this radius.
     void add(LastingContact contact, double dx, double dy, double radius) {
         const double square = dx * dx + dy * dy, touching = radii[contact.a] + radius,
                      reach = touching + widest_gap;
@@ -162,15 +162,15 @@ void LastingContactFinder::add_pairs(Search& search) const {
     }
 }
 
-/// Begins a contact of disc i with a fixed body.
+/// Sets the disc, which is disc i, and the friction of a contact with a fixed body.
 void LastingContactFinder::begin_at(const SurfaceTable& surface, std::uint32_t i,
                                     const HeapDisc& disc, LastingContact& contact) {
     contact.a = i;
     contact.friction = surface.of(disc.id).rubbing.friction();
 }
 
-/// Thermal and moving walls have no lasting contacts. In a box of another shape discs do not reach
-/// the sides.
+/// Thermal and moving walls have no lasting contacts. In a box of another shape than a rectangle
+/// discs do not reach the sides.
 void LastingContactFinder::add_walls(Search& search) const {
     if (effects_.fixed_bodies.has_shape()) return;
     for (std::int64_t side = 0; side < 4; ++side) {
@@ -215,7 +215,7 @@ void LastingContactFinder::add_fixed_bodies(Search& search) const {
     const std::size_t n_turning = Container(fixed_bodies.shape, box_).segments().size();
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const Segment& line = lines[k];
-        // The wall of a box slides in the direction of its arcs.
+        // The surface of the box's wall moves in the direction of its arcs.
         contact.velocity = fixed_bodies.surface.velocity * (k + n_turning < lines.size() ? -1 : 1);
         ++contact.body;
         search.in_rectangle(std::min(line.x0, line.x1) - reach, std::max(line.x0, line.x1) + reach,
@@ -230,7 +230,7 @@ void LastingContactFinder::add_fixed_bodies(Search& search) const {
     for (const Arc& arc : all_arcs(fixed_bodies, box_)) add_arc(search, arc, contact);
 }
 
-/// If an arc turns counterclockwise, its inner face moves clockwise as seen from a disc inside.
+/// If an arc's surface moves counterclockwise, a disc inside sees the inner face move clockwise.
 void LastingContactFinder::add_arc(Search& search, const Arc& arc, LastingContact& contact) const {
     ++contact.body;
     const double far = arc.radius + search.largest_radius + search.widest_gap,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pairs, and the discs at walls and fixed bodies, that are so close at a sync that they may
-// press each other until the next one. They are found with cells as wide as the largest contact.
+// Finds pairs, and discs at walls and fixed bodies, that are so close at a sync that they may press
+// each other until the next sync. Cells as wide as the largest contact are searched.
 //
 // A contact that is left out costs time but causes no error, because its discs collide instead.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace carrom {
 
-/// A disc at a sync, as all ranks know it.
+/// The numbers of a disc at a sync, which all ranks know.
 struct HeapDisc {
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;
@@ -32,8 +32,8 @@ struct LastingContact {
     static constexpr std::uint32_t fixed_body = 0xffffffff;
 
     std::uint32_t a = 0, b = fixed_body; ///< indices in the list of discs
-    /// Number of the fixed body: the side of the box, or 4 plus the number of the body, where
-    /// segments follow discs, and arcs follow segments
+    /// Number of the fixed body: the side of the box, or 4 plus the index of the body in the list
+    /// of discs, then segments, then arcs
     std::int64_t body = -1;
     double nx = 0, ny = 0;
     double gap = 0;      ///< distance between the surfaces
@@ -47,7 +47,7 @@ public:
     LastingContactFinder(const Box& box, const Effects& effects);
 
     /// The contacts whose gap is less than `widest_gap`, in an order that depends only on the discs
-    /// and their order. `radii` runs along `discs`.
+    /// and their order. `radii` are in the order of `discs`.
     std::vector<LastingContact> find(std::span<const HeapDisc> discs, std::span<const double> radii,
                                      double widest_gap) const;
 

@@ -3,22 +3,22 @@
 // (dynamics.hpp); a law is plain data.
 //
 //   elastic       the relative velocity along the line of centres is reversed
-//   restitution   only the share `restitution` of it is left; 1 gives the bits of elastic
-//   collisions rough         discs with spin: normal and tangential restitution and Coulomb's
-//   friction (Walton
-//                 and Braun, J. Rheol. 30, 949 (1986); Luding, Phys. Rev. E 52, 4442 (1995)). Where
-//                 the surfaces stick their relative velocity along them is multiplied by minus
-//                 `tangential_restitution`; where that takes more than `friction` times the normal
-//                 impulse, they slide. A guarded contact is smooth.
+//   restitution   only the share `restitution` of this velocity is left; 1: same bits as elastic
+//   rough         discs with spin: normal and tangential restitution, Coulomb's friction
+//                 (Walton and Braun, J. Rheol. 30, 949 (1986); Luding, Phys. Rev. E 52, 4442
+//                 (1995)). Where surfaces stick, their relative velocity is multiplied by
+//                 `-tangential_restitution`. They slide where this takes a tangential impulse
+//                 of more than `friction` times the normal impulse. A guarded contact is
+//                 smooth.
 //
-// These numbers are those of the pair of species (pair_table.hpp).
+// The coefficients are those of the pair of species (pair_table.hpp).
 //
-// Which law is asked at run time: a collision takes some 2,900 instructions with all that follows
-// from it, so a branch in it costs nothing.
+// The law is chosen at run time: a collision takes some 2,900 instructions with everything that it
+// causes, so a branch in it costs almost nothing.
 //
-// A law gets the time `since` the last collision of either disc, by which its guard
-// (contact_guard.hpp) may make the contact elastic. The time-stepped method has no guard, because a
-// disc collides once in a micro-step at most there, so it passes `never`.
+// A law gets the time `since` the last collision of either disc, because the guard
+// (contact_guard.hpp) may make the contact elastic. The time-stepped method passes `never`: it
+// needs no guard, because a disc collides at most once in a micro-step there.
 #pragma once
 
 #include <cmath>
@@ -53,7 +53,7 @@ public:
     CARROM_DEVICE bool has_spin() const { return kind_ == ContactKind::rough; }
     CARROM_DEVICE bool is_elastic() const { return kind_ == ContactKind::elastic; }
 
-    /// Gives new velocities and spins to two discs whose surfaces meet in this encounter.
+    /// Gives two discs whose surfaces meet in this encounter their new velocities and spins.
     template <class Real>
     [[gnu::always_inline]] CARROM_DEVICE Loss meet(DiscState& p, DiscState& q,
                                                    const Encounter<Real>& met,
@@ -81,13 +81,13 @@ private:
             return common_;
         return pairs_.of(p.id, q.id);
     }
-    /// The normal impulse of discs that approach at this speed, relative to an elastic contact: (1
-    /// + e) / 2, which is `normal`.
+    /// The normal impulse of discs that approach at `speed`, relative to an elastic contact. It is
+    /// (1 + e) / 2, which is `normal`, at any speed.
     CARROM_DEVICE double normal_at(double normal, double /*speed*/) const { return normal; }
 
-    /// `impulse` is in units of that of an elastic contact of equal masses. The velocity of each
-    /// disc changes by 2 m' / (m + m') of it, where m' is the mass of the other disc. For equal
-    /// masses this is a factor of 1, which changes no bit.
+    /// `impulse` is relative to that of an elastic contact. It changes the velocity of each disc by
+    /// the share 2 m' / (m + m'), where m' is the mass of the other disc. For equal masses this
+    /// share is 1, which changes no bit.
     template <class Real>
     [[gnu::always_inline]] CARROM_DEVICE static void push_apart(DiscState& p, DiscState& q,
                                                                 const Encounter<Real>& met,
@@ -115,9 +115,9 @@ private:
                            is_guarded);
     }
 
-    /// As meet_smooth, with an additional impulse s along the surfaces, which changes both spins by
-    /// the same amount. Like k it is in units of the distance between centres. With s = 0 the bits
-    /// are those of meet_smooth. Spins are angles per micro-step, counterclockwise.
+    /// Like meet_smooth, with an additional impulse s along the surfaces, which turns both discs in
+    /// the same sense. Both s and k are in units of the distance between centres. With s = 0 the
+    /// bits are those of meet_smooth. Spins are angles per micro-step, counterclockwise.
     CARROM_DEVICE Loss meet_rough(DiscState& p, DiscState& q, const Encounter<double>& met,
                                   const SizeAndMass& p_has, const SizeAndMass& q_has, double since,
                                   const Spins& spins) const {
@@ -152,7 +152,7 @@ private:
         return 2 * normal * (1 - normal) * k * k;
     }
     /// The tangential impulse for the surfaces' relative velocity `slip` and the normal impulse
-    /// `k`, all in one unit.
+    /// `k`; all three are in the same unit.
     CARROM_DEVICE static double tangential(const PairFactors& factors, double slip, double k) {
         const double sticking = factors.tangential * slip, most = factors.friction * std::fabs(k);
         return std::fabs(sticking) > most ? std::copysign(most, sticking) : sticking;

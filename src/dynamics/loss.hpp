@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy that restitution takes in one collision, or would take if a guard did not prevent it
-// (contact_guard.hpp).
+// The energy that restitution takes in one collision, and the energy that it would have taken if
+// the guard (contact_guard.hpp) had not prevented this.
 #pragma once
 
 namespace carrom {

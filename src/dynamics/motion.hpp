@@ -40,7 +40,7 @@ public:
           tolerance_(Arithmetic::tolerance(box_, 2 * radius_)), space_(box_, effects),
           bodies_(radius_, effects, species), law_(effects, radius_, pairs) {}
 
-    /// From now on radii and masses are read from this table.
+    /// From now on radii and masses are read from the table of `species`.
     void look_up_species_in(SpeciesView species) { bodies_.look_up_in(species); }
 
     // Questions about the scene.
@@ -53,7 +53,7 @@ public:
     }
     bool parts_overlaps() const { return arithmetic_.parts_overlaps(); }
 
-    // Sizes of discs before they grow; the radius is the largest one.
+    // Sizes of discs before they grow; the radius is the largest radius of all discs.
 
     CARROM_DEVICE const Box& box() const { return box_; }
     CARROM_DEVICE double radius() const { return radius_; }
@@ -66,8 +66,8 @@ public:
     double size_at(double time) const { return bodies_.size_at(time); }
     CARROM_DEVICE double mass_of(const DiscState& disc) const { return bodies_.of(disc).mass; }
 
-    // Speeds that searches allow for: the disc's own speed, and the speed of its image in the box
-    // at a time.
+    // Speeds that searches allow for: the disc's own speed, and the speed that the disc's image in
+    // the box has at a time.
 
     CARROM_DEVICE double squared_speed(const DiscState& disc) const {
         return space_.squared_speed(disc);
@@ -80,7 +80,7 @@ public:
     {
         return space_.periods();
     }
-    /// Brings a state that a sync has just rewritten into the box.
+    /// Brings a state that a sync has just advanced back into the box.
     CARROM_DEVICE void wrap(DiscState& disc) const
         requires is_periodic
     {
@@ -130,7 +130,7 @@ public:
                                                    double time) {
         return std::min(since_collision(p, time), since_collision(q, time));
     }
-    /// The separation from p to q, whose states are both at their collision.
+    /// The separation from p to q; both states are at the time of their collision.
     Separation separation(const DiscState& p, const DiscState& q) const {
         const Encounter<double> met = space_.see(p, q, q.x - p.x, q.y - p.y, p.tau);
         return {met.ex, met.ey};

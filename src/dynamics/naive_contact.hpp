@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The school formula for the time of contact, which the course program uses. The accuracy study
-// compares it with the stable one (pair_contact.hpp).
+// The textbook formula for the time of contact, which the course program uses. The accuracy study
+// compares this formula with the stable one (pair_contact.hpp).
 //
-// It computes B^2 - 4 A C and -B - sqrt(...) directly. Both subtract nearly equal numbers when a
-// pair is far apart or grazes. In single precision it misses a fifth of the hits at a thousand
-// diameters (docs/understanding/accuracy.md). It would miss seven tenths if a discriminant that
-// rounds to 0 counted as no contact. For a pair that overlaps, even by a rounding, the root is in
-// the past, so the discs pass through each other.
+// The code computes B^2 - 4 A C and -B - sqrt(...) directly. Both subtract nearly equal numbers
+// when a pair is far apart or grazes. In single precision the formula misses a fifth of the hits at
+// a thousand diameters (docs/understanding/accuracy.md), and would miss seven tenths if a
+// discriminant that rounds to 0 counted as no contact. If a pair overlaps, even by a rounding, the
+// root is in the past, so the discs pass through each other.
 #pragma once
 
 #include <cmath>

@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-/// A disc comes within the wall's reach at most twice; the other visits allow for rounding.
+/// A disc comes within the wall's reach at most twice; more visits allow for rounding.
 constexpr int most_visits = 8;
 /// A search begins and ends this many periods outside of the time in which the disc is within
 /// reach.
@@ -68,7 +68,7 @@ double Oscillation::pressure_at(double time, double later) const {
     return std::max(sign_ * at(time).acceleration, sign_ * at(later).acceleration) - pull_;
 }
 
-/// The flight of one disc, at the time s after `time`.
+/// The flight of one disc relative to the wall's line; s is the time since `time`.
 struct Oscillation::Flight {
     const Oscillation& wall;
     double distance, rate, from_wall, time;
@@ -86,7 +86,7 @@ struct Oscillation::Flight {
         const auto [slope, bend] = rate_at(s);
         return slope < 0 || (slope == 0 && bend < 0);
     }
-    /// The next time at which the disc is within the wall's reach by more than the slack.
+    /// The next time at which the disc is deeper within the wall's reach than the slack.
     double entry_after(double s) const {
         const double left = from_line_at(s) - wall.amplitude_ + wall.slack_;
         return left > 0 ? s + fall_delay(left, rate + wall.pull_ * s, wall.pull_) : s;
@@ -96,7 +96,7 @@ private:
     double from_line_at(double s) const {
         return (distance + rate * s) + (0.5 * wall.pull_ * s) * s;
     }
-    /// The rate of the distance. At s = 0 after a rebound it is exactly the rate of that rebound.
+    /// The rate of the distance. At s = 0 after a rebound it is exactly the rate after that.
     double slope_at(double s, const WallMotion& then) const {
         return (from_wall + wall.pull_ * s) - wall.sign_ * (then.velocity - now.velocity);
     }
@@ -113,7 +113,7 @@ double Oscillation::bend_after(double time) const {
 }
 
 /// Searches at least the times from `begin` to `end`. Between two bends the rate changes its sign
-/// at most once, so the distance falls in one interval between them, or not at all.
+/// at most once, so the distance decreases in at most one interval between them.
 double Oscillation::first_contact(const Flight& flight, double begin, double end) const {
     const auto distance = [&flight](double s) { return flight.distance_at(s); };
     const auto rate = [&flight](double s) { return flight.rate_at(s); };

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A wall that oscillates about its line: its distance from there is A sin(2 pi t / P +
-// phase), along +x or +y, with t the time since the scene's start. It is infinitely
-// heavy, so nothing changes its motion.
+// A wall that oscillates about its line: its distance from the line is A sin(2 pi t / P +
+// phase), along +x or +y, with t the time since the scene's start. The wall has infinite
+// mass, so nothing changes its motion.
 //
-// In the falling frame its distance to a disc is a parabola minus a sine. Its derivative is
-// monotone between the times at which wall and disc have the same acceleration. These times are
-// known, and there are two in a period. So one bracket finds each extremum, and another finds the
-// first root: no contact is missed, however fast or slow the wall is. A disc that stays within the
-// amplitude of the line for a whole period meets the wall, so the search covers at most two
-// periods.
+// In the falling frame the distance of the wall to a disc is a parabola minus a sine. The
+// derivative of this distance is monotone between the times at which wall and disc have the same
+// acceleration. These times are known, and there are two in a period. So one bracket finds each
+// extremum, and another bracket finds the first root: no contact is missed, at any speed of the
+// wall. A disc whose distance from the line stays below the amplitude for a whole period meets the
+// wall, so the search covers at most two periods.
 //
-// It uses only + - * / and sqrt in a fixed order, so the bits are the same on every machine.
+// The code uses only + - * / and sqrt in a fixed order, so bits are the same on every machine.
 #pragma once
 
 #include "dynamics/effects.hpp"
@@ -30,15 +30,15 @@ class Oscillation {
 public:
     /// A wall that does not oscillate.
     Oscillation() = default;
-    /// `side` has times in micro-steps, `sign` is 1 if the inside is in the positive direction,
-    /// else -1. `acceleration` is that of discs along the axis, `slack` the rounding of places.
+    /// `side` has times in micro-steps. `sign` is 1 if the inside is in the positive direction,
+    /// else -1. `acceleration`: of discs along the axis; `slack`: rounding of positions.
     Oscillation(const Boundary& side, double sign, double acceleration, double slack);
 
     bool is_on() const { return amplitude_ > 0; }
     double amplitude() const { return amplitude_; }
     double largest_speed() const { return amplitude_ * rate_; }
 
-    /// From now on times count from `time` since the scene's start.
+    /// Starts an interval: from now on times count from `time` since the scene's start.
     void begin_interval(double time);
     WallMotion at(double time) const;
     /// The acceleration of a disc towards the wall at which it is: the larger of its values now and
@@ -46,9 +46,9 @@ public:
     double pressure_at(double time, double later) const;
 
     /// The time after `time` until the disc first is at the wall or beyond, and approaches it.
-    /// `distance` is measured from the line towards the inside, at `time`, and `rate` is its
-    /// derivative. `from_wall` is the rate relative to the wall itself; its sign decides at `time`.
-    /// Contacts less deep than the slack may be missed.
+    /// `distance` is the distance from the line towards the inside at `time`, and `rate` is the
+    /// derivative of `distance`. `from_wall` is the rate relative to the wall itself, whose sign
+    /// decides at `time`. Contacts that are less deep than the slack may be missed.
     double contact_delay(double distance, double rate, double from_wall, double time) const;
 
 private:
@@ -60,7 +60,7 @@ private:
     double amplitude_ = 0, period_ = 1, rate_ = 0; ///< rate: angular frequency 2 pi / period
     double phase_ = 0, turns_ = 0;           ///< phase in turns, at the start and at the last sync
     double sign_ = 1, pull_ = 0, slack_ = 0; ///< pull: acceleration towards the inside
-    /// In turns, the times of equal acceleration within one turn (see the top)
+    /// The times of equal acceleration within one turn, in turns (see the top)
     double first_bend_ = 0, second_bend_ = 0;
 };
 

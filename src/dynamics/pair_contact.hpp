@@ -5,9 +5,9 @@
 // The discriminant is taken as (sqrt(A) sigma - |X|)(sqrt(A) sigma + |X|) with the cross product X
 // made exact by fused multiply-adds, and the root as C / (-b + sqrt(disc)), so no nearly equal
 // numbers are subtracted (Lagrange's identity; Kahan 2004). This form of X treats x and y alike, so
-// transposed scenes give transposed bits. One square root for most misses, two more and a division
-// for a hit. Nothing is divided before b < 0 is known, so equal velocities need no case of their
-// own.
+// transposed scenes give transposed bits. Most misses cost one square root, and a hit costs two
+// more and a division. Nothing is divided before b < 0 is known, so equal velocities need no
+// special case.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 
 namespace carrom {
 
-/// A contact at `base` + `delay`; `base` is the later of the two local times. `delay` < 0 means
-/// none.
+/// A contact at the time `base` + `delay`, where `base` is the later local time of the two discs.
+/// There is no contact if `delay` < 0.
 template <class Real> struct PairContact {
     Real base = 0;
     Real delay = -1;
@@ -35,12 +35,12 @@ template <class Real> CARROM_DEVICE Real cross(Real ax, Real ay, Real bx, Real b
 }
 
 /// The time until points at separation (dx, dy) with relative velocity (vx, vy) come within
-/// `sigma`; negative if they never do. Pairs that overlap by more than `deepest_overlap`
-/// never do (infinity: they collide at once if they approach). The cross product is that of
-/// the separation and (wx, wy): of growing discs this is the velocity before a rounded part along
-/// the separation was taken off, so that this rounding does not count at a graze.
-/// Inlined wherever it is called, so that the code of one dynamics does not depend on which others
-/// are compiled beside it.
+/// `sigma`; negative if they never do. Pairs that overlap by more than `deepest_overlap` never do;
+/// if it is infinite, overlapping pairs collide immediately if they approach. The cross product is
+/// that of the separation and (wx, wy). For growing discs (wx, wy) is the velocity before a
+/// rounded part along the separation was subtracted, so that this rounding has no effect on a
+/// graze. Always inlined, so that the code of one dynamics does not depend on which others are
+/// compiled with it.
 template <class Real>
 [[gnu::always_inline]] CARROM_DEVICE inline Real contact_delay(Real dx, Real dy, Real vx, Real vy,
                                                                Real wx, Real wy, Real sigma,
@@ -52,7 +52,7 @@ template <class Real>
     const Real reach = std::sqrt(a) * sigma;
     const Real x = std::fabs(cross(dx, dy, wx, wy));
     const Real disc = (reach - x) * (reach + x);
-    if (!(disc > 0)) return none; // an exact graze is no contact
+    if (!(disc > 0)) return none; // an exact graze does not count as a contact
     const Real distance = std::sqrt(dx * dx + dy * dy);
     const Real gap = distance - sigma;
     if (gap < -deepest_overlap) return none;
@@ -66,8 +66,8 @@ template <class Real>
     return contact_delay(dx, dy, wx, wy, wx, wy, sigma, deepest_overlap);
 }
 
-/// The contact of discs `p` and `q` (in any order) from their stored states alone, so the bits do
-/// not depend on where and when it is computed. Inlined like contact_delay.
+/// The contact of discs `p` and `q`, in either order. It follows from the stored states alone, so
+/// its bits do not depend on where and when it is computed. Always inlined, like contact_delay.
 template <class Real, class AnyDisc>
 [[gnu::always_inline]] CARROM_DEVICE inline PairContact<Real> pair_contact(const AnyDisc& p,
                                                                            const AnyDisc& q,

@@ -5,7 +5,7 @@
 
 namespace carrom {
 
-/// Rows whose discs are all frozen have no ids, so their pairs never meet.
+/// A row whose discs are all frozen has no ids, so pairs with this row never meet.
 PairTable::PairTable(const ContactEffect& contact) {
     if (contact.pairs.empty() || contact.rows.empty()) return;
     const std::size_t n = contact.rows.size();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers of contacts that depend on the species of both discs: one set for each pair of rows
-// of `discs.species`, and a common set for all other pairs.
+// The coefficients of contacts that depend on the species of both discs: one set for each pair of
+// rows of `discs.species`, and a common set for all other pairs.
 //
-// Rows come in the order of ids, so a disc's row follows from its id. The table goes by rows and
-// not by Species, because equal discs of two rows are one Species, and may be of two materials
-// here.
+// Rows come in the order of ids, so a disc's row follows from its id. The table has rows and not
+// Species as its index, because equal discs of two rows form one Species but may be of different
+// materials.
 #pragma once
 
 #include <cmath>
@@ -17,12 +17,12 @@
 
 namespace carrom {
 
-/// What a law computes with, for one pair of rows.
+/// The factors of a law for one pair of rows.
 struct PairFactors {
     double normal = 1;     ///< (1 + e) / 2: the impulse in units of that of an elastic contact
-    double tangential = 0; ///< the share of the sliding velocity that an impulse takes where
-                           ///< surfaces stick, over 2; 0 for smooth discs
-    double friction = 0;   ///< Coulomb's
+    double tangential = 0; ///< half the share of the sliding velocity that the impulse takes where
+                           ///< surfaces stick; 0 if smooth
+    double friction = 0;   ///< coefficient of Coulomb's friction
 
     static PairFactors of(double restitution, double tangential_restitution, double friction,
                           double inertia) {
@@ -36,7 +36,7 @@ struct PairFactors {
     }
 };
 
-/// Looks up factors in a table that something else owns; plain data. Empty if the scene names no
+/// Finds factors in a table that another object owns; plain data. Empty if the scene names no
 /// pairs.
 class PairView {
 public:
@@ -46,7 +46,7 @@ public:
         : ends_(ends), factors_(factors), n_(n) {}
 
     CARROM_DEVICE bool are_any() const { return factors_ != nullptr; }
-    /// The factors of the pair; (p, q) and (q, p) have the same.
+    /// The factors of the pair; they are the same for (p, q) and (q, p).
     CARROM_DEVICE const PairFactors& of(DiscId p, DiscId q) const {
         return factors_[row_of(p) * n_ + row_of(q)];
     }
@@ -63,7 +63,7 @@ private:
     std::size_t n_ = 0;
 };
 
-/// Copies share their memory.
+/// Owns a table of factors; copies share its memory.
 class PairTable {
 public:
     explicit PairTable(const ContactEffect& contact);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The distance of a point on a parabola from a point at rest, and roots in brackets.
-// falling_contact.cpp and arc_contact.cpp share them.
+// falling_contact.cpp and arc_contact.cpp use this code.
 #pragma once
 
 #include <array>
@@ -11,15 +11,15 @@
 
 namespace carrom {
 
-/// Largest number of steps. Newton's rule takes about ten. Bisection alone takes fewer than 100 for
-/// most intervals.
+/// Largest number of steps of the root search. Newton's rule takes about ten steps. Bisection alone
+/// takes fewer than 100 for most intervals.
 inline constexpr int most_newton_steps = 100;
 
 struct ValueAndRate {
     double value, slope;
 };
 
-/// The root of a function with different signs at the ends, given its value and slope at a time.
+/// The root of a function with different signs at the ends, whose value and slope are known.
 template <class Function>
 double root_between(double low, double high, bool rises, const Function& function) {
     double s = low + (high - low) / 2;
@@ -47,7 +47,7 @@ struct Parabola {
         const auto [x, y, vx, vy] = at(s);
         return {x * vx + y * vy, (vx * vx + vy * vy) + (x * gx + y * gy)};
     }
-    /// The times at which this derivative has its extrema, ascending; both infinite if it has none.
+    /// Times at which `rate` has its extrema, ascending; both infinite if there is none.
     std::array<double, 2> bends() const {
         const double a = 1.5 * (gx * gx + gy * gy), b = 3 * (wx * gx + wy * gy),
                      c = (wx * wx + wy * wy) + (dx * gx + dy * gy);
@@ -58,7 +58,7 @@ struct Parabola {
         if (found[1] < found[0]) std::swap(found[0], found[1]);
         return found;
     }
-    /// A time after `s` from which on the distance only grows.
+    /// A time after `s` from which on the distance only increases.
     double late(double s) const {
         const double g = std::sqrt(gx * gx + gy * gy);
         double step = std::sqrt(wx * wx + wy * wy) / g +

@@ -3,8 +3,8 @@
 // accuracy study.
 //
 // In the time-stepped method the position of the disc at the end of micro-step m decides whether it
-// bounces. Only the wall ahead counts. A slow disc that ends within the band bounces at t = 1
-// without touching the wall. Otherwise rounding might keep it at the wall for ever.
+// bounces off the wall ahead. A slow disc that ends within the band at a wall bounces at t = 1
+// without a contact, because rounding might otherwise keep it there for ever.
 #pragma once
 
 #include <algorithm>
@@ -18,15 +18,15 @@ template <class Real> class RestingWalls {
 public:
     static constexpr Real never = std::numeric_limits<Real>::infinity();
 
-    /// `radius` is that of the discs; `band` is the width within which a slow disc bounces.
+    /// `radius` is the radius of all discs; `band` is the width within which a slow disc bounces.
     CARROM_DEVICE RestingWalls(Real length, Real radius, Real band)
         : low_(radius), high_(length - radius), band_(band) {}
 
     CARROM_DEVICE Real low() const { return low_; }
     CARROM_DEVICE Real high() const { return high_; }
 
-    /// Time-stepped method: the in-step time of the bounce in micro-step m, 0 to 1, or `never`. The
-    /// disc was at x at its own time tau.
+    /// Time-stepped method: the time of the bounce within micro-step m, from 0 to 1, or `never`.
+    /// The disc is at x at its own time tau.
     [[gnu::always_inline]] CARROM_DEVICE Real time(Real x, Real v, Real tau, Real m) const {
         const Real at_end = x + v * ((m + 1) - tau);
         if (v < 0 && at_end < low_ + band_)

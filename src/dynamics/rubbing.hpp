@@ -4,13 +4,13 @@
 // that cannot move.
 //
 // With the outward normal n of the body and t = (-n_y, n_x), the surface of a disc with the spin W
-// moves along the wall's surface with the velocity h = (v - u) . t - W r. Where the surfaces stick,
-// h becomes -e_t h: the velocity along t changes by s = -(1 + e_t) h q / (1 + q) and the spin by -s
-// / (q r), q m r^2 being the moment of inertia. A disc that does not turn has an infinite q. The
+// moves along the wall's surface with the velocity h = (v - u) . t - W r. If the surfaces stick, h
+// becomes -e_t h: the velocity along t changes by s = -(1 + e_t) h q / (1 + q) and the spin by -s /
+// (q r), where q m r^2 is the moment of inertia. For a disc that does not turn q is infinite. The
 // velocity along t changes by at most `friction` times the change of the normal velocity.
 //
-// Rubbing does not depend on the contact time, because it ends no series of collisions, and because
-// a disc that rests on a floor should roll on it.
+// Rubbing does not depend on the contact time, because no series of collisions ends by it, and
+// because a disc that rests on a floor should roll there.
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,7 @@ struct Turning {
 class Rubbing {
 public:
     Rubbing() = default;
-    /// `surface` gives its velocity. A smooth surface has the tangential restitution -1.
+    /// `surface` also gives the wall's velocity. A smooth surface has tangential restitution -1.
     Rubbing(const Surface& surface, const ContactEffect& contact)
         : friction_(surface.friction), velocity_(surface.velocity), inertia_(contact.inertia),
           share_((1 + surface.tangential_restitution) *
@@ -36,12 +36,12 @@ public:
 
     bool acts() const { return share_ != 0; }
     double velocity() const { return velocity_; }
-    /// Coulomb's coefficient; 0 of a surface that does not act.
+    /// Coulomb's coefficient; 0 if the surface does not rub.
     double friction() const { return acts() ? friction_ : 0; }
 
-    /// The change of the velocity along t. `slip` is the velocity of the disc's centre along t
-    /// relative to the surface, and `pushed` the magnitude of the change along the normal. Also
-    /// changes the spin.
+    /// Changes the spin, and returns the change of the velocity along t. `slip` is the velocity
+    /// along t of the disc's centre relative to the surface, and `pushed` is the magnitude of the
+    /// change of the normal velocity.
     double rub(double slip, double pushed, const Turning& turning) const {
         if (turning.spin) slip -= turning.radius * *turning.spin;
         const double sticking = -share_ * slip, most = friction_ * pushed;

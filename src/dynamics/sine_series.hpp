@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sines of angles, and roots in brackets, computed by + - * / in a fixed order. So they have the
-// same bits on every machine, which the C library does not ensure.
+// Sines of angles, and roots in brackets. They are computed by + - * / in a fixed order, because
+// the C library does not ensure the same bits on every machine.
 #pragma once
 
 #include <array>
@@ -33,15 +33,15 @@ struct SineAndCosine {
 /// Sine and cosine of 2 pi `turns`, which is below 2^50, each to 2^-52.
 SineAndCosine sine_of_turns(double turns);
 
-/// The fractional part, from 0 to 1, of a number of turns.
+/// The fractional part of a number of turns, from 0 to 1.
 inline double whole_turns_off(double turns) { return turns - std::floor(turns); }
 
 struct ValueAndSlope {
     double value, slope;
 };
 
-/// The root of a function with different signs at the ends, to a rounding of `origin` and itself.
-/// Uses Newton's rule, and bisection if that leaves the bracket or its steps do not halve.
+/// The root of a function with different signs at the ends, to a rounding of `origin` and of the
+/// root. Uses Newton's rule, or bisection if that leaves the bracket or steps do not halve.
 template <class Function>
 double root_in_bracket(double low, double high, bool rises, double origin,
                        const Function& function) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The space that discs fly in: which image of another disc a disc meets, where that image is and
-// how fast. One part of a dynamics (dynamics.hpp); a space is plain data.
+// The space in which discs fly: which image of a disc another disc meets, where the image is, and
+// how fast it moves. It is one part of a dynamics (dynamics.hpp); a space is plain data.
 //
 //   WalledSpace     discs have no images
 //   PeriodicSpace   the box repeats itself at rest, along one axis or both (core/image.hpp)
@@ -8,12 +8,12 @@
 //                   J. Phys. C 5, 1921 (1972)), so that the gas flows with vx = rate (y - const)
 //                   without any wall
 //
-// The separation of two discs is that of their stored places and a whole number of box lengths,
-// added in one fixed order, so that all ranks find the same bits. Under shear the image has a
-// velocity of its own, too. A disc that leaves through the seam keeps its stored state until the
-// next sync, which brings it back with the velocity of the image in the box. Price: images near the
-// seam are faster than discs in the box by rate times the box's height, and searches have to allow
-// for that.
+// The separation of two discs is the difference of their stored positions plus a whole number of
+// box lengths, added in one fixed order, so that all ranks find the same bits. Under shear the
+// image also has a velocity of its own. A disc that leaves through a sheared side keeps its stored
+// state until the next sync, which gives it the position and velocity of its image in the box.
+// Cost: images near these sides are faster than discs in the box by rate times the box's height,
+// which searches have to allow for.
 #pragma once
 
 #include <cmath>
@@ -50,7 +50,7 @@ concept Space = std::is_trivially_copyable_v<S> &&
                     { space.squared_speed_at(p, d) } -> std::same_as<double>;
                     requires !S::is_periodic || requires {
                         { space.periods() } -> std::same_as<const Periods&>;
-                        space.wrap(q); // brings the disc into the box, after a sync
+                        space.wrap(q); // brings the disc into the box, at a sync
                     };
                 };
 
@@ -129,7 +129,7 @@ public:
     static constexpr bool is_periodic_along(Axis /*axis*/) { return true; }
     static constexpr bool has_sides() { return false; }
     CARROM_DEVICE double slack() const { return slack_; }
-    /// The squared speed of the fastest image next to the disc's own one.
+    /// The largest squared speed of the disc's own image and of the images next to it.
     CARROM_DEVICE double squared_speed(const DiscState& disc) const {
         const double vx = std::fabs(periods_.vx_of(disc)) + std::fabs(periods_.speed);
         return vx * vx + disc.vy * disc.vy;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Species: the radius and the mass of each disc. Only swap moves change them in a run.
 //
-// Species come in the order of ids, so a disc's species follows from its id, and needs no array,
-// and no bytes in messages and checkpoints. A few species are found by comparisons. Many have a
-// table by id on every rank. Up to 65,536 species take 2 bytes a disc for the number of the
-// species. More of them take 16, because the table then contains radius and mass.
+// Species come in the order of ids, so a disc's species follows from its id and takes no memory in
+// arrays, messages and checkpoints. If there are few species, comparisons find them. Many species
+// have a table by id on every rank: up to 65,536 species take 2 bytes a disc for the number of the
+// species, and more take 16, because the table then contains radius and mass of each disc.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-/// A number of equal discs. Their ids follow those of the species before.
+/// A group of equal discs. Their ids follow the ids of the preceding species.
 struct Species {
     std::uint64_t count = 0;
     double radius = 0;
@@ -32,7 +32,7 @@ struct SizeAndMass {
     double mass = 1;
 };
 
-/// Looks up radius and mass in a table that another object owns; plain data.
+/// Finds radius and mass in a table that another object owns; plain data.
 class SpeciesView {
 public:
     struct Range {
@@ -40,8 +40,8 @@ public:
         SizeAndMass values;
     };
 
-    /// `sizes` is null if there are few species; `species_of_id` is null if `sizes` has each disc's
-    /// values.
+    /// `sizes` is null if there are few species; `species_of_id` is null if `sizes` has an entry
+    /// for each disc.
     SpeciesView(const Range* ranges, const SizeAndMass* sizes, const std::uint16_t* species_of_id)
         : ranges_(ranges), sizes_(sizes), species_of_id_(species_of_id) {}
 
@@ -58,12 +58,12 @@ private:
     const std::uint16_t* species_of_id_;
 };
 
-/// Copies share their memory. A run makes one table for its dynamics, and all others get a copy
-/// (Engine::species_table).
+/// Owns the table; copies share its memory. A run makes one table for its dynamics, and other code
+/// gets a copy from Engine::species_table.
 class SpeciesTable {
 public:
-    /// Without species all discs have this radius and mass 1. If `radii_change`, each disc has
-    /// numbers of its own.
+    /// Without species all discs have this radius and mass 1. If `radii_change`, each disc has an
+    /// entry of its own.
     SpeciesTable(std::span<const Species> species, double radius, bool radii_change = false);
 
     /// Sets the radius in all copies of the table. Only for a table whose radii change; no other
@@ -72,8 +72,8 @@ public:
 
     const SizeAndMass& of(DiscId id) const { return view_.of(id); }
     SpeciesView view() const { return view_; }
-    /// A view of copies of the table. `copy(numbers, n)` copies one part to memory that must stay,
-    /// and returns its address.
+    /// A view of copies of the table's parts. `copy(numbers, n)` copies one part to memory that
+    /// must outlive the view, and returns its address.
     template <class Copy> SpeciesView copied_by(const Copy& copy) const {
         const SpeciesView::Range* ranges = copy(table_->ranges.data(), table_->ranges.size());
         if (table_->sizes.empty()) return {ranges, nullptr, nullptr};
@@ -87,7 +87,7 @@ private:
         std::vector<SpeciesView::Range> ranges;
         /// Radius and mass of each species or of each disc; may be empty
         std::vector<SizeAndMass> sizes;
-        std::vector<std::uint16_t> species_of_id; ///< empty if `sizes` has each disc's values
+        std::vector<std::uint16_t> species_of_id; ///< empty if `sizes` has an entry for each disc
 
         void spread(std::span<const Species> species, DiscId n_discs, bool radii_change);
     };

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Less accurate arithmetic, for the accuracy study (docs/understanding/accuracy.md): single
-// precision, the naive contact formula, or both. It takes the place of StableArithmetic in the
-// plain dynamics where a scene asks for it.
+// precision, the naive contact formula, or both. It replaces StableArithmetic in the plain dynamics
+// if a scene requires this.
 //
 // `Number` is the precision of states and of computation. A state of floats is stored as doubles of
 // the same values, so the rest of the program does not depend on the precision. The formula is
 // chosen when the program runs.
 //
-// Such arithmetic finds contacts where discs do not touch, and misses some. The search covers only
-// pairs that can touch, plus a margin that depends on ranks and threads. So a contact counts only
-// within a fixed margin, `slack`; then all numbers of ranks and threads find the same contacts.
+// Such arithmetic finds contacts where discs do not touch, and misses others. The search covers
+// only pairs that can touch, plus a margin that depends on ranks and threads. So a contact counts
+// only within a fixed margin, `slack`, and all numbers of ranks and threads give the same contacts.
 #pragma once
 
 #include <algorithm>
@@ -42,8 +42,8 @@ public:
     using Real = Number;
     using State = RoundedState<Number>;
     static constexpr bool is_for_study = true;
-    /// If discs have no room to move, rounding now and then advances their times, so a collision
-    /// cascade is not confined to a single time.
+    /// If discs have no room to move, rounding advances their times now and then, so a collision
+    /// cascade extends over a range of times.
     static constexpr double cascade_interval = 0x1p-3;
     static constexpr double time_rounding = is_single ? 0x1p-21 : 0x1p-50;
 
@@ -92,10 +92,10 @@ public:
     }
 
 private:
-    /// The largest error, in diameters, of a contact found by a formula that loses digits. At a
-    /// distance of d diameters rounding u moves B^2 - 4 A C by some u (2 d v)^2. So a grazing
-    /// contact moves along the flight by the root of that over 2 v, and its distance by the square.
-    /// Where that is half a diameter and more the contact counts as lost.
+    /// The largest error, in diameters, of a contact that a formula with cancellation finds. At a
+    /// distance of d diameters a rounding u changes B^2 - 4 A C by some u (2 d v)^2. So a grazing
+    /// contact moves along the flight by the root of this change over 2 v, and its distance changes
+    /// by the square. If this is half a diameter or more, the contact counts as lost.
     static double misplacement(const Box& box, double radius) {
         const double longest = std::numbers::sqrt2 * rounded(box).longest() / (2 * rounded(radius));
         return std::min(0.5, 2.5 * std::numeric_limits<Real>::epsilon() * longest * longest);

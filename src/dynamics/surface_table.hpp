@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How contacts with sides and obstacles depend on the species of the disc: numbers for some rows of
-// `discs.species`, and the common ones of the surface for all other discs.
+// `discs.species`, and the common numbers of the surface for all other discs.
 //
 // A disc's row follows from its id, as in pair_table.hpp. A surface without rows costs one test of
 // a pointer in a bounce.
@@ -32,7 +32,7 @@ SurfaceNumbers numbers_of(const Effects& effects, std::size_t surface, const Sur
 /// Whether the surface rubs discs of any species.
 bool does_rub(const Effects& effects, std::size_t surface);
 
-/// Copies share their memory.
+/// The numbers of one surface for all species; copies share their memory.
 class SurfaceTable {
 public:
     struct Factors {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of a uniform acceleration that changes in time: A sin(2 pi t / P + phase) along each
-// axis, with t the time since the scene's start. Both axes have one period, so that the field may
+// axis, with t the time since the scene's start. Both axes have the same period, so the field may
 // swing along a line, or turn.
 //
-// All discs fall alike in it, so it only moves the falling frame (falling_frame.hpp), and contacts
-// of pairs do not depend on it. In the frame a wall is on a parabola and a sine, and a disc meets
-// it at
+// All discs have the same acceleration, so it only moves the falling frame (falling_frame.hpp), and
+// contacts of pairs do not depend on it. In the frame the path of a wall is a parabola plus a sine,
+// and a disc meets the wall when
 //
 //     d + r s + g s^2 / 2 + (S (1 - cos w s) + C (w s - sin w s)) / w^2 = 0,    w = 2 pi / P,
 //
@@ -14,8 +14,8 @@
 // second, then of the first one, and no contact is missed. No nearly equal numbers are subtracted,
 // however long a period is.
 //
-// Everything holds up to an eighth of a period after a sync, so the reader of scenes lets syncs
-// follow each other at least as often (scene/effects/gravity.cpp).
+// All formulas hold up to an eighth of a period after a sync, so the reader of scenes requires at
+// least one sync in each eighth of a period (scene/effects/gravity.cpp).
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ namespace carrom {
 
 struct Acceleration;
 
-/// The motion along one axis that the changing part gives to a frame that was at rest.
+/// The motion along one axis of a frame that was at rest, due to the changing part.
 struct Swayed {
     double way = 0, speed = 0, acceleration = 0;
 };
@@ -37,13 +37,13 @@ public:
 
     bool is_on() const { return rate_ != 0; }
     bool acts_along(std::size_t axis) const { return amplitudes_[axis] != 0; }
-    /// From now on `time` is the scene's time of the last sync, from which other times count.
+    /// Starts an interval: the last sync is at `time` of the scene, and other times count from it.
     void begin_interval(double time);
     /// The motion since the sync; `time` is at most about an eighth of a period.
     Swayed at(std::size_t axis, double time) const;
-    /// The time until a disc meets a wall: `distance`, its `rate` and the steady `pull`
-    /// are towards the inside, in the direction `sign`, at `time`. Like fall_delay;
-    /// infinite if that is later than an eighth of a period after the sync.
+    /// The time until a disc meets a wall. At `time`, `distance`, its `rate` and the steady `pull`
+    /// are positive towards the inside, which is in the direction `sign`. Like fall_delay;
+    /// infinite if the contact is later than an eighth of a period after the sync.
     double contact_delay(std::size_t axis, double sign, double distance, double rate, double pull,
                          double time) const;
 

@@ -29,11 +29,11 @@ namespace carrom {
 struct WallImpulse {
     static constexpr std::size_t n_sides = 4;
 
-    std::size_t side = 0;              ///< numbers from `n_sides` on are rows of fixed bodies
+    std::size_t side = 0;              ///< side; numbers from `n_sides` on are rows of fixed bodies
     double normal = 0;                 ///< impulse away from the side
     double along = 0;                  ///< impulse along the side, in the direction of its axis
     double energy = 0;                 ///< change of the discs' kinetic energy
-    double ix = 0, iy = 0, torque = 0; ///< as in WallEvent; for fixed bodies
+    double ix = 0, iy = 0, torque = 0; ///< members of WallEvent of these names; for fixed bodies
 };
 
 /// The impulse that one disc gives another one at a sync.
@@ -42,7 +42,7 @@ struct PairImpulse {
     double x = 0, y = 0;       ///< centre of p
     double dx = 0, dy = 0;     ///< vector from the centre of p to the centre of q
     double ix = 0, iy = 0;     ///< impulse that p gets; q gets the opposite
-    double p_vx = 0, p_vy = 0; ///< means of the velocities before and after the sync
+    double p_vx = 0, p_vy = 0; ///< means of p's velocities before and after the sync
     double q_vx = 0, q_vy = 0;
 };
 
@@ -60,23 +60,23 @@ struct SyncDiscs {
     std::int64_t n_syncs = 0;
 
     using Part = std::function<void(std::size_t begin, std::size_t end)>;
-    /// Calls `part` for pieces of the discs, on several threads at once. `part` must not throw.
+    /// Calls `part` for pieces of the discs, on several threads in parallel. `part` must not throw.
     std::function<void(const Part& part)> in_parts = {};
-    /// Calls `visit(index, other, distance)` for each own disc and each other one within the reach
-    /// that an effect has asked for, images included. On one thread.
+    /// Calls `visit(index, other, distance)` on one thread for each own disc and each other disc,
+    /// or image of one, within the reach that an effect has requested.
     using VisitNear = std::function<void(std::size_t index, DiscId other, double distance)>;
     std::function<void(const VisitNear& visit)> visit_near_pairs = {};
     /// Adds up in place over all ranks. **Collective.**
     std::function<void(std::span<ExactSum>)> add_over_ranks = {};
-    /// The largest of the numbers of all ranks, on every rank. **Collective.**
+    /// Returns the largest of the numbers of all ranks to every rank. **Collective.**
     std::function<double(double)> largest_over_ranks = {};
-    /// The bytes of all ranks, one rank after the other, on every rank. **Collective.**
+    /// Returns the bytes of all ranks, in the order of ranks, to every rank. **Collective.**
     std::function<std::vector<std::byte>(std::span<const std::byte>)> gather_over_ranks = {};
-    /// Records the impulse of a side of the box, per micro-step. One rank calls it for all. It is
-    /// empty unless walls are measured.
+    /// Records the impulse of a side of the box, per micro-step. One rank calls this for all ranks.
+    /// It is empty unless walls are measured.
     std::function<void(const WallImpulse&)> record_wall = {};
-    /// Records the impulse between two discs, per micro-step. One rank calls it for all. It is
-    /// empty unless stress is measured or pairs are followed.
+    /// Records the impulse between two discs, per micro-step. One rank calls this for all ranks. It
+    /// is empty unless stress is measured or pairs are followed.
     std::function<void(const PairImpulse&)> record_pair = {};
 
     /// Adds up over all discs in the box: `term(i, parts)` adds the terms of disc i to
@@ -105,15 +105,15 @@ public:
 
     /// The present factor of all radii.
     virtual double size() const = 0;
-    /// The largest factor to which this sync can change it.
+    /// The largest value that the factor can have after this sync.
     virtual double largest_at(std::int64_t n_syncs) const = 0;
     /// Changes the factor of all radii. `room` is the largest factor at which no two discs overlap;
     /// it may exceed `largest_at`.
     virtual void change(std::int64_t n_syncs, double room) = 0;
 };
 
-/// A disc that has come in through an open side in the interval that a sync ends. It came to where
-/// discs depart.
+/// A disc that has come in through an open side during the interval before a sync. Its place of
+/// entry is where discs depart.
 struct Arrival {
     std::size_t side = 0;
     DiscId first = 0, end = 0; ///< range of ids that the disc may have
@@ -126,11 +126,11 @@ struct Arrival {
 /// How many arrivals came in, and how many did not.
 struct ArrivalCounts {
     std::uint64_t in = 0;            ///< discs that came in
-    std::uint64_t without_place = 0; ///< because another disc or a fixed body is there
-    std::uint64_t without_disc = 0;  ///< because no disc had departed
+    std::uint64_t without_place = 0; ///< not let in, because a disc or a fixed body is there
+    std::uint64_t without_disc = 0;  ///< not let in, because no disc had departed
 };
 
-/// Lets departed discs come back into the box. All functions give the same on all ranks.
+/// Lets departed discs come back into the box. All functions return the same on all ranks.
 class DiscSource {
 public:
     virtual ~DiscSource() = default;
@@ -146,16 +146,16 @@ public:
     SyncEffect(const SyncEffect&) = delete;
     SyncEffect& operator=(const SyncEffect&) = delete;
 
-    /// Called once before all others. `species` is the table of the run, whose copies share memory.
+    /// Called before all other functions. `species` is the run's table; copies of it share memory.
     virtual void learn(const SpeciesTable& /*species*/) {}
-    /// The largest distance of the pairs that the effect needs at this sync; 0 if it needs none.
-    /// Equal on all ranks.
+    /// The largest distance between the pairs that the effect needs at this sync; 0 if it needs no
+    /// pairs. The same on all ranks.
     virtual double reach(std::int64_t /*n_syncs*/) const { return 0; }
     /// Changes velocities, spins, directions and radii of discs, and no other numbers.
     /// **Collective.**
     virtual void act(const SyncDiscs& at) = 0;
-    /// The change of radii, for an effect that has one; null for all others. At most one effect has
-    /// it.
+    /// The change of radii, for an effect that changes them; null for all others. At most one
+    /// effect may change radii.
     virtual SizeChange* sizes() { return nullptr; }
     /// The source of an effect that lets discs in; null for all others. At most one effect has it.
     virtual DiscSource* source() { return nullptr; }

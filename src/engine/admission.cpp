@@ -11,12 +11,12 @@ namespace carrom {
 
 namespace {
 
-/// A disc comes in only if the gaps to others are at least this share of the distance, so that
-/// rounding never makes discs overlap.
+/// A disc comes in only if its gaps to others are at least this share of the sum of both radii, so
+/// that rounding never makes discs overlap.
 constexpr double least_gap = 1e-9;
 
 /// An arrival with its disc. A disc is let in if its place of entry is free, even if the place that
-/// it has reached since is not. Otherwise fast discs would be left out more often.
+/// it has reached since then is blocked. Otherwise fast discs would be left out more often.
 struct Candidate {
     ReturningDisc disc; ///< the disc at the place of entry
     DiscState there;    ///< the disc at the place that it has reached by the sync
@@ -26,8 +26,8 @@ struct Candidate {
 
 bool may_have(const Arrival& arrival, DiscId id) { return id >= arrival.first && id < arrival.end; }
 
-/// The departed discs on this rank that may come in: for each range of ids those with the lowest
-/// ids, as many as there are arrivals of this range.
+/// The departed discs on this rank that may come in: for each range of ids the ones with the lowest
+/// ids, at most as many as there are arrivals.
 std::vector<ReturningDisc> lowest_of_rank(std::span<const Arrival> arrivals,
                                           const AdmissionGround& ground) {
     std::vector<std::size_t> places;
@@ -93,7 +93,7 @@ void place(Candidate& candidate, const Arrival& arrival, double mass, const Box&
     candidate.is_blocked_there = depth > length - radius;
 }
 
-/// Where fixed bodies are, a disc comes straight from the side.
+/// For fixed bodies the test assumes that a disc comes in at a right angle to the side.
 void block_by_fixed_bodies(Candidate& candidate, const Arrival& arrival,
                            const AdmissionGround& ground) {
     DiscState from = candidate.disc.state, to = candidate.there;

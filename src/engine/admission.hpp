@@ -26,9 +26,9 @@ struct AdmissionGround {
     const Box& box;
     const SpeciesTable& species;
     double largest_radius;
-    bool have_pairs; ///< otherwise discs pass through each other, and are in nobody's way
-    std::span<const DiscState> own, departed; ///< of this rank
-    const SideColumns& departed_columns;      ///< along `departed`
+    bool have_pairs; ///< if false, discs pass through each other and never block a place
+    std::span<const DiscState> own, departed; ///< discs of this rank
+    const SideColumns& departed_columns;      ///< columns in the order of `departed`
     /// Whether fixed bodies leave room for a disc that has flown from the first state straight to
     /// the second one in this time.
     std::function<bool(const DiscState& from, const DiscState& to, double time)> has_room;
@@ -39,9 +39,9 @@ struct Admission {
     ArrivalCounts counts;
 };
 
-/// Each arrival gets the departed disc of the lowest id that it may have and no earlier one has
-/// got. It is left out if another disc or a fixed body is where it came. If one is where it has
-/// flown to, or on the way there, it stays where it came.
+/// Each arrival gets the departed disc of the lowest id in its range that no earlier one got. The
+/// arrival is left out if another disc or a fixed body is at its place of entry. If only the place
+/// to which the disc has flown is blocked, or the way there, the disc stays at its place of entry.
 /// **Collective.**
 Admission admit(std::span<const Arrival> arrivals, const AdmissionGround& ground);
 

@@ -12,7 +12,7 @@ namespace carrom {
 struct Collision {
     static constexpr DiscId wall = ~DiscId{0};
 
-    /// `time` counts from the start of this micro-step, which counts from the scene's start
+    /// The micro-step, since the scene's start, from whose start `time` counts
     std::int64_t micro_step = 0;
     double time = 0; ///< time in micro-steps
     /// Number in a chain of collisions at one time in the event-driven method
@@ -21,7 +21,7 @@ struct Collision {
     double impulse = 0;     ///< the impulse on p, in mass times length per step
 };
 
-/// A disc that has flown on through periodic sides has been brought back into the box
+/// A disc that has flown through periodic sides is brought back into the box at a sync,
 /// by this many box lengths.
 struct Crossing {
     DiscId disc = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses one of the dynamics that engines are compiled for, by the scene. No other
-// place makes this choice.
+// Chooses one of the dynamics that engines are compiled for, from the scene. No other
+// code makes this choice.
 #pragma once
 
 #include "dynamics/all_dynamics.hpp"
@@ -9,8 +9,8 @@
 namespace carrom {
 
 /// Calls `make.template operator()<D>()` with the scene's dynamics and returns its
-/// result, which has the same type for every dynamics. Effects have the default
-/// precision and arithmetic, because the reader of scenes refuses others.
+/// result, which has the same type for every dynamics. With effects only the default
+/// precision and arithmetic are possible: the reader of scenes reports an error for others.
 template <class Make> auto with_dynamics_of(const SceneParameters& scene, const Make& make) {
     const Effects& effects = scene.effects;
     const bool has_species = !effects.species.empty();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An engine moves a run's discs. There is one for each method. A run has one of them
-// from its start to its end.
+// An engine moves a run's discs. There is one class of engines for each method, and a
+// run has one engine from its start to its end.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@
 
 namespace carrom {
 
-/// A rank's discs at `time`, as at the beginning of a window: own discs in their domain, the halo
-/// behind them, all sorted into cells.
+/// A rank's discs at `time`, arranged as at the start of a window: own discs in their domain, then
+/// the halo, all sorted into cells.
 struct LocalView {
     Population population;
     const CellGrid* grid = nullptr; ///< a grid whose reach covers pairs within a diameter
@@ -51,18 +51,18 @@ public:
     /// Fills in the totals that only the engine knows: overlaps, rejected candidates, windows.
     /// **Collective.**
     virtual void add_to(Totals& totals) = 0;
-    /// Redistributes the discs as they are now, to inspect pairs within a diameter, or within
-    /// `reach` if that is more. Valid until the next step. **Collective.**
+    /// Redistributes the discs in their present state, so that pairs within a diameter, or within
+    /// `reach` if that is more, can be inspected. Valid until the next step. **Collective.**
     virtual LocalView local_view(double reach = 0) = 0;
     /// Removes the images of own discs that local_view has added in a periodic box.
     virtual void forget_images() = 0;
 
-    /// The GPU that steps the discs; its name is empty if there is none.
+    /// The GPU on which the discs are moved; its name is empty if there is none.
     virtual DeviceFacts device() const { return {}; }
-    /// Extra bytes a disc where discs are clustered, compared with a homogeneous gas. The same on
-    /// all ranks.
+    /// Extra bytes a disc where discs are clustered, compared with a homogeneous gas. Equal on all
+    /// ranks.
     virtual double bytes_for_crowds() const { return 0; }
-    /// **Collective.**
+    /// Counts of windows and blocks of all ranks. **Collective.**
     virtual RollbackCounts rollback_counts() const { return {}; }
 
     virtual std::int64_t micro_steps_done() const = 0; ///< micro-steps since the scene's start
@@ -81,7 +81,7 @@ public:
     virtual std::uint64_t n_discs() const = 0;
     /// See SyncAction::energy_given.
     virtual double energy_given() const { return 0; }
-    /// What effects keep, for StoredState
+    /// The values that effects keep for the next sync; part of StoredState
     virtual std::vector<std::int64_t> kept_by_effects() const { return {}; }
     virtual PhaseSeconds phase_seconds() const = 0;
     /// Largest number of ranks that share a strip; the same on all ranks
@@ -90,17 +90,17 @@ public:
     /// See DiscSystem::log_to. Engines append the collisions that they carry out while `log_` is
     /// not null.
     void log_to(std::vector<Collision>* log) { log_ = log; }
-    /// They get this rank's collisions of pairs, or with the box's sides, in no particular order.
+    /// Followers get this rank's collisions of pairs, or with the box's sides, in any order.
     Followers<PairEvent>& followers_of_pairs() { return pair_followers_; }
     Followers<WallEvent>& followers_of_walls() { return wall_followers_; }
-    /// From now on the energy that moving images give own discs is added to `work`, as long as
-    /// collisions are logged; per micro-step, of stored states. Null ends that.
+    /// From now on the energy that moving images give to own discs is added to `work` while
+    /// collisions are logged, in the unit of stored states, per micro-step. Null ends this.
     void add_work_to(double* work) { work_ = work; }
-    /// From now on `act` is called at each sync before effects act there, when all states are at
-    /// its time. It only reads. An empty function ends that.
+    /// From now on `act` is called at each sync before the effects act, when all states are at the
+    /// time of the sync. It must not change states. An empty function ends this.
     void call_before_effects(std::function<void()> act) { before_effects_ = std::move(act); }
-    /// From now on what own discs add to the time integral of stress is added to `sums` of one
-    /// rank; null ends that. A pair's collision is added by the rank that owns its first disc.
+    /// From now on the contributions of own discs to the time integral of stress are added to
+    /// `sums` of one rank; null ends this. The owner of a pair's first disc adds a collision.
     void add_stress_to(StressSums* sums) {
         stress_ = sums;
         if (!sums) return;
@@ -109,17 +109,17 @@ public:
     }
     /// Sums the energy that collisions take, with `bound` exceeding each sum; before any step.
     void begin_loss_sums(double bound) { losses_ = no_losses_ = LossSums(bound); }
-    /// Integrals over flights that are not in the sums yet.
+    /// Integrals over flights that the sums do not contain yet.
     virtual FlightIntegral flight_integral() const { return {}; }
-    /// From now on a sync in a periodic box appends to `crossings` by how many box lengths it
-    /// brings own discs back, until `forget_crossings_in`.
+    /// From now on a sync in a periodic box appends to `crossings` the numbers of box lengths by
+    /// which own discs are brought back, until `forget_crossings_in` is called.
     void record_crossings_in(std::vector<Crossing>& crossings) { crossings_.push_back(&crossings); }
     void forget_crossings_in(std::vector<Crossing>& crossings) {
         std::erase(crossings_, &crossings);
     }
 
 protected:
-    /// Records the flight from (x, y) to the disc's present position. Threads may call it together.
+    /// Records the flight from (x, y) to the disc's position. Threads may call this in parallel.
     void record_crossing(const DiscState& disc, double x, double y, const Periods& periods);
     bool is_followed() const {
         return log_ != nullptr || wall_followers_.are_any() || pair_followers_.are_any();
@@ -131,8 +131,8 @@ protected:
     StressSums* stress_ = nullptr;
     double* work_ = nullptr;
     std::function<void()> before_effects_;
-    /// Partial sums begin as copies of it. Its unit is so large that all terms are 0 until a
-    /// measurement needs sums.
+    /// Partial sums begin as copies of this. Its unit is so large that all terms are rounded to 0,
+    /// until a measurement needs sums.
     StressSums no_stress_{0x1p900};
     LossSums losses_{0x1p900}, no_losses_{0x1p900};
     std::vector<std::vector<Crossing>*> crossings_;

@@ -30,14 +30,14 @@ void Engine::record_crossing(const DiscState& disc, double x, double y, const Pe
 
 namespace {
 
-/// The usual depth of a halo in mean distances of discs. It is one reach of the time-stepped
-/// method, and three reaches of the event-driven one, whose windows are longer
+/// The usual depth of a halo, in mean distances of discs: one reach of the time-stepped method, or
+/// three reaches of the event-driven method, whose windows are longer
 /// (tests/performance/rank_loads.cpp).
 GroupChoice group_choice(Method method, const Tuning& tuning) {
     return {method == Method::time_stepped ? 1.2 : 10, tuning.ranks_across};
 }
 
-/// Includes columns of the scene that no collision changes, because they go where the discs go.
+/// Includes the scene's columns that no collision changes, because they move with the discs.
 template <class Dynamics>
 SideColumns stored_columns(const Dynamics& dynamics, const SceneParameters& scene,
                            StoredState& state) {
@@ -74,7 +74,7 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
     largest_speed_ = std::sqrt(squared_speed_of_own(time_));
 }
 
-/// Micro-steps between two additions of flights to the sums of stress.
+/// Micro-steps from one addition of flights to the sums of stress to the next.
 template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() const {
     const bool sync_changes_velocities = Dynamics::has_moving_images || dynamics_.has_own_frame() ||
                                          sync_action_.has_effects();
@@ -116,7 +116,7 @@ void EngineBase<Dynamics>::redistribute_now(double least_reach, Covered covered)
 /// if that part is not small. A disc outside of the part counts in the nearest cell.
 template <class Dynamics>
 Extent EngineBase<Dynamics>::where_discs_are(const Extent& seen, double reach) const {
-    constexpr double small = 0.25; // share of the area of `seen`
+    constexpr double small = 0.25; // largest share of the area of `seen`
     const std::span<const DiscState> discs = own();
     if (discs.empty()) return seen;
     Extent part = {seen.x_high, seen.x_low, seen.y_high, seen.y_low};
@@ -138,12 +138,12 @@ Extent EngineBase<Dynamics>::where_discs_are(const Extent& seen, double reach) c
 template <class Dynamics>
 void EngineBase<Dynamics>::refuse_long_flights([[maybe_unused]] double speed) const {
     if constexpr (Dynamics::is_periodic) {
-        constexpr double most = 15000; // images are counted to 16000 (core/image.hpp)
+        constexpr double most = 15000; // counts of images reach 16000 (core/image.hpp)
         const std::int64_t left = last_micro_step_ - last_sync();
         const auto interval = static_cast<double>(left > 0 ? std::min(sync_every_, left)
                                                            : sync_every_);
         double lengths = most_lengths(discs_.periods(), speed, speed, interval);
-        // a second test: in a flow discs are far faster along x than along y
+        // a second test, because in a flow discs are far faster along x than along y
         if (lengths > most && Dynamics::has_moving_images)
             lengths = most_lengths(discs_.periods(), speed, communicator_.max(fastest_up(own())),
                                    interval);
@@ -157,7 +157,7 @@ void EngineBase<Dynamics>::refuse_long_flights([[maybe_unused]] double speed) co
     }
 }
 
-/// Stops early, at the end of a step at which a sync is due, because stops cost nothing there.
+/// Stops early, at the end of the step of the next sync, because a stop costs nothing there.
 template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_t last_step) {
     const std::int64_t step_after_sync = (last_sync() + sync_every_ + micro_steps_ - 1) /
                                          micro_steps_;
@@ -263,10 +263,10 @@ template <class Dynamics> double EngineBase<Dynamics>::let_effects_act() {
     return largest_speed_of_all_states();
 }
 
-/// Effects begin once for all flights to the next sync, also if a restart continues from here.
+/// Effects act here once before all flights to the next sync, also if a restart continues here.
 template <class Dynamics> void EngineBase<Dynamics>::let_effects_begin() {
     const PhaseClock::Scope scope(phases_, Phase::sync);
-    discs_.forget_halo(); // the halo has the velocities before the effects
+    discs_.forget_halo(); // the halo still has the velocities before the effects
     sync_action_.begin(discs_, n_micro_done_ / sync_every_);
     take_speed(largest_speed_of_all_states());
 }
@@ -280,8 +280,8 @@ template <class Dynamics> double EngineBase<Dynamics>::largest_speed_of_all_stat
     return std::sqrt(fastest);
 }
 
-/// Lets an effect change all radii, up to where the closest two discs touch. States are those after
-/// the sync, so they are at time 0.
+/// Lets an effect change all radii, at most until the closest two discs touch. States are those
+/// after the sync, at time 0.
 template <class Dynamics> void EngineBase<Dynamics>::change_sizes(SizeChange& sizes) {
     const std::int64_t n_syncs = n_micro_done_ / sync_every_;
     fetch_neighbours(dynamics_.search_diameter() * sizes.largest_at(n_syncs));
@@ -302,7 +302,7 @@ template <class Dynamics> void EngineBase<Dynamics>::fetch_neighbours(double rea
     time_ = end;
 }
 
-/// Lets discs in. All states are at the sync. Returns the largest speed of the discs that come in.
+/// Lets discs in. All states are at the sync. Returns the largest speed of the discs let in.
 template <class Dynamics> double EngineBase<Dynamics>::let_discs_in(DiscSource& source) {
     const std::vector<Arrival> arrivals = source.arrivals(n_micro_done_ / sync_every_);
     if (arrivals.empty()) return 0;
@@ -327,7 +327,7 @@ template <class Dynamics> void EngineBase<Dynamics>::forget_neighbours() {
     discs_.forget_halo();
 }
 
-/// Distances are relative to the sizes in the scene, because an effect may have changed all radii.
+/// Distances are in units of the scene's sizes, because an effect may have changed all radii.
 template <class Dynamics>
 void EngineBase<Dynamics>::visit_neighbours(double reach, const SyncDiscs::VisitNear& visit) const {
     visit_pairs_within(discs_.grid(), population(), discs_.periods(), size(), reach, visit);
@@ -349,7 +349,7 @@ template <class Dynamics> double EngineBase<Dynamics>::energy_of_own() const {
     return energy;
 }
 
-/// Brings a state into the box that a sync has rewritten. Threads call it for different discs.
+/// Brings a state that a sync has changed into the box. Threads call it for different discs.
 template <class Dynamics> void EngineBase<Dynamics>::wrap(DiscState& disc) {
     if constexpr (Dynamics::is_periodic) {
         const double x = disc.x, y = disc.y;
@@ -383,7 +383,7 @@ template <class Dynamics> Extent EngineBase<Dynamics>::extent() const {
     return box;
 }
 
-/// In a periodic box the frame counts as moving, because positions have to be brought into the box.
+/// In a periodic box the frame counts as moving, because positions must be brought into the box.
 template <class Dynamics> Frame EngineBase<Dynamics>::frame() const {
     Frame frame = dynamics_.frame_at(time_);
     if (!discs_.periods().are_any()) return frame;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The base of both methods. It keeps discs, clock and communicator, runs from sync to sync, sends
-// discs to their ranks, and reports totals. A method adds its windows.
+// The base of the engines of both methods. It keeps discs, clock and communicator, runs from sync
+// to sync, sends discs to their ranks, and reports totals. Each method adds its own windows.
 //
 //   advance_towards   until the stop or the next sync:
 //     advance_to        the method's windows
@@ -56,7 +56,7 @@ public:
     int most_ranks_across() const final { return discs_.domains().largest_group(); }
 
 protected:
-    /// Takes over the state. The method distributes the discs when its own members are ready.
+    /// Takes over the state. The method calls `distribute` when its own members are ready.
     EngineBase(const SceneParameters& scene, StoredState state, const Communicator& communicator,
                const Tuning& tuning);
 
@@ -71,35 +71,35 @@ protected:
     /// Called when effects have changed velocities after finish_sync and before flights. No own
     /// disc is faster than `largest_speed`. **Collective.**
     virtual void take_speed(double largest_speed) = 0;
-    /// Ends the window that goes on beyond the present stop. **Collective.**
+    /// Ends a window that extends beyond the present stop. **Collective.**
     virtual void leave_window() { is_in_window_ = false; }
     /// Advances all own discs to `time_`, sets `time_` to 0, and returns the largest speed.
     virtual double restart_states();
     /// Brings `discs_` up to date, in engines that keep their states elsewhere.
     virtual void bring_states() const {}
-    /// Frees what windows keep from one to the next.
+    /// Frees the memory that is kept from one window to the next.
     virtual void drop_scratch() { discs_.drop_grid(); }
 
     /// Cuts the box anew and redistributes all discs, wherever they are. **Collective.**
     void distribute();
-    /// Where windows may end, if the run stops at `target`: there, or after it. Runs that are
-    /// inspected at each step would otherwise have a window for each, which costs as much as a long
-    /// one.
+    /// The time until which windows may extend if the run stops at `target`: `target` or later.
+    /// Without later times, runs that are inspected at each step would have a window for each step,
+    /// which costs as much as a long one.
     std::int64_t horizon_of(std::int64_t target) const;
-    /// Micro-steps of which the next stops are probably multiples, counted from this one.
+    /// The interval, in micro-steps from the present one, at multiples of which stops are probable.
     std::int64_t stop_interval() const { return stop_interval_; }
-    /// What cells cover: the whole region that the rank uses, or only the part of it where its
-    /// discs are. If discs are clustered, cells of the whole region would hold hundreds of discs
-    /// each.
+    /// The region that cells cover: the whole region that the rank uses, or only the part of it
+    /// that contains its discs. If discs are clustered, cells of the whole region would hold
+    /// hundreds of discs each.
     enum class Covered { domain, discs };
-    /// Redistributes discs, halo and cells as they are now, for partners within a diameter or
+    /// Redistributes discs, halo and cells at the present time, for partners within a diameter or
     /// `least_reach`. No state changes. **Collective.**
     void redistribute_now(double least_reach = 0, Covered covered = Covered::discs);
     /// Removes departed discs from the arrays of own discs. **Collective.**
     void set_departed_aside();
 
-    /// Ends the run if discs are so fast that they cross a periodic box more often than their
-    /// images can be counted. `speed` is the largest one, equal on all ranks. **Collective.**
+    /// Ends the run if discs are so fast that they cross a periodic box more often than image
+    /// counts allow. `speed` is the largest speed, equal on all ranks. **Collective.**
     void refuse_long_flights(double speed) const;
 
     /// At a sync: records the flights since the last one. Returns true if all recorded flights must
@@ -107,7 +107,7 @@ protected:
     bool begin_flights();
     /// The square of the largest speed of own discs at `time`.
     double squared_speed_of_own(double time) const;
-    /// Counts the discs that a window sees as work of this rank, and returns their number.
+    /// Adds the discs in a window, halo included, to this rank's work, and returns their number.
     std::size_t count_seen() {
         rank_work_.of_discs += discs_.all().size();
         return discs_.all().size();
@@ -125,19 +125,19 @@ protected:
     Communicator communicator_;
     Tuning tuning_;
     Dynamics dynamics_;
-    /// Micro-steps of a step, and micro-steps between syncs
+    /// Micro-steps in a step, and micro-steps from sync to sync
     std::int64_t micro_steps_, sync_every_;
     StripDiscs discs_;
 
     std::int64_t n_micro_done_ = 0, n_windows_ = 0;
-    double time_ = 0;           ///< on the clock, since the last sync
-    bool is_in_window_ = false; ///< the run has stopped inside a window, which will go on
-    /// Time of flights that were recorded for the stress before the last sync
+    double time_ = 0;           ///< time on the clock, since the last sync
+    bool is_in_window_ = false; ///< the run has stopped inside a window that is not finished
+    /// Time of the flights before the last sync that are not yet added to the stress
     double flown_before_ = 0;
     double redistributed_time_ = 0; ///< time of the last migration
-    double largest_speed_ = 0;      ///< bound of the speed of own discs
+    double largest_speed_ = 0;      ///< upper bound of the speed of own discs
     double travel_speed_ = 0; ///< bound of the speed since the last migration; equal on all ranks
-    RankWork rank_work_;      ///< work since ranks were last compared
+    RankWork rank_work_;      ///< work since the last comparison of ranks
     PhaseClock phases_;
 
 private:
@@ -157,11 +157,11 @@ private:
 
     SpeciesTable species_;
     SyncAction sync_action_;
-    /// Micro-steps between two additions of whole flights to the stress
+    /// Micro-steps from one addition of whole flights to the stress to the next
     std::int64_t flight_length_;
     std::int64_t last_micro_step_, n_syncs_ = 0;
-    /// Windows go on after stops, because the last stop between syncs was not followed by a
-    /// redistribution, which would have made a window useless.
+    /// Whether windows continue after stops. This is so if no redistribution followed the last stop
+    /// between syncs, because a redistribution would make the rest of a window useless.
     bool windows_pass_stops_ = false;
     bool is_redistributed_ = true; ///< whether discs were redistributed since the last stop
     /// The largest divisor of all distances between stops since the last sync; 0 at first

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Passes collisions to measurements and others that need them as they happen. Engines record events
-// only if somebody follows them, so that other runs pay nothing.
+// Passes collisions, as they happen, to measurements and other followers. Engines record events
+// only if there is a follower, so that other runs pay nothing.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace carrom {
 
-/// The result must not depend on the order of the events, because threads and ranks find them in
-/// any order.
+/// A receiver of events. Its result must not depend on the order of the events, because threads and
+/// ranks find events in any order.
 template <class Event> class EventFollower {
 public:
     EventFollower() = default;
@@ -18,12 +18,12 @@ public:
     EventFollower(const EventFollower&) = delete;
     EventFollower& operator=(const EventFollower&) = delete;
 
-    /// Takes events of this rank.
+    /// Receives events of this rank.
     virtual void take(std::span<const Event> events) = 0;
 };
 
-/// Events that wait for their followers. Memory is kept and overwritten, because clearing it for
-/// each event first, as a vector does, would take a third of the time of recording it.
+/// Events that wait for their followers. Memory is kept and overwritten, because a vector would
+/// clear it for each event, which takes a third of the time of recording the event.
 template <class Event> class NotedEvents {
 public:
     bool has_room() const { return n_ < n_rooms_; }
@@ -31,8 +31,8 @@ public:
         n_rooms_ = 2 * n_rooms_ + 16;
         room_.resize(n_rooms_);
     }
-    /// Memory for one more event; `has_room` must hold. It contains old values, so all of it must
-    /// be written.
+    /// Memory for one more event; `has_room` must be true. The memory contains old values, so all
+    /// members must be written.
     Event& add() { return room_[n_++]; }
     void clear() { n_ = 0; }
     std::span<const Event> all() const { return std::span(room_).first(n_); }
@@ -42,8 +42,8 @@ private:
     std::size_t n_ = 0, n_rooms_ = 0; ///< kept because computing the vector's size takes a division
 };
 
-/// The followers of events of one kind. They get events soon after these have happened, so that
-/// memory does not grow with their number.
+/// The followers of events of one kind. Followers get events soon after they happen, so that memory
+/// does not increase with the number of events.
 template <class Event> class Followers {
 public:
     void add(EventFollower<Event>& follower) { all_.push_back(&follower); }
@@ -54,7 +54,7 @@ public:
         for (EventFollower<Event>* follower : all_) follower->take(events);
     }
     /// Memory for an event that waits for `hand_over`, for engines that find events one by one. All
-    /// of it must be written.
+    /// members must be written.
     Event& note() {
         if (!noted_.has_room()) noted_.grow();
         return noted_.add();

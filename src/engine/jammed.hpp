@@ -9,8 +9,8 @@
 
 namespace carrom {
 
-/// Thrown on every rank if growing discs jam. The simulation is then in no consistent state. Exit
-/// code 3.
+/// Thrown on every rank if growing discs jam. The state is then inconsistent and must not be used.
+/// The program ends with exit code 3.
 class Jammed : public CollectiveError {
 public:
     Jammed(const std::string& text, std::int64_t safe_micro_step)

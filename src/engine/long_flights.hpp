@@ -13,8 +13,8 @@
 
 namespace carrom {
 
-/// Most box lengths that a disc can travel in `time` without a wrap, for speeds up to `speed`, and
-/// up to `up` along y. Rows of boxes may move.
+/// The largest number of box lengths that a disc can travel in `time` without a wrap, at a speed up
+/// to `speed`, and up to `up` along y. Rows of boxes may move (shear).
 inline double most_lengths(const Periods& periods, double speed, double up, double time) {
     const double rows = periods.y == 0 ? 0 : up * time / periods.y;
     const double along_x = speed + (rows + 1) * std::fabs(periods.speed);

@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// Visits the pairs whose first disc is an own disc in that column. The second is in the same or a
+/// Visits pairs whose first disc is an own disc in that column. The second disc is in the same or a
 /// higher column, or in the halo. Pairs of two halo discs are left to other ranks.
 template <class Visit>
 void visit_near_pairs_of(const CellGrid& grid, int column, const Visit& visit) {
@@ -44,8 +44,8 @@ template <class Visit> void visit_near_pairs(const CellGrid& grid, const Visit& 
         visit_near_pairs_of(grid, column, visit);
 }
 
-/// Calls `visit(index, id of the other, distance)` for each own disc of a pair that is at most
-/// `reach` apart, images included. Distances are in `unit`; states are at time 0.
+/// Calls `visit(index, id of the other, distance)` for each own disc and each other disc or image
+/// within `reach`. Distances are in `unit`; states are at time 0.
 template <class Visit>
 void visit_pairs_within(const CellGrid& grid, const Population& all, const Periods& periods,
                         double unit, double reach, const Visit& visit) {

@@ -2,9 +2,9 @@
 // A collision of two discs with the data that sums over events need: its position, the impulse, and
 // the velocities afterwards. Engines record it only if a measurement follows pairs.
 //
-// Lasting contacts give such events at syncs, with the impulses until the next one. Everything is
-// as the box sees it at the time of the collision, so falls and drag are in it. Places are not
-// brought back into a periodic box.
+// Lasting contacts give such events at syncs, with the impulses until the next sync. All numbers
+// are in the box's own frame at the time of the collision, so they include falls and drag.
+// Positions are not brought back into a periodic box.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ namespace carrom {
 /// Lengths are the scene's; velocities and impulses are per step.
 struct PairEvent {
     DiscId p = 0, q = 0; ///< p is the lower id
-    /// The micro-step, since the scene's start, from which `time` counts
+    /// The micro-step, counted from the scene's start, from which `time` counts
     std::int64_t micro_step = 0;
     double time = 0;           ///< time in micro-steps
     double x = 0, y = 0;       ///< centre of p
-    double dx = 0, dy = 0;     ///< vector from there to the centre of q
+    double dx = 0, dy = 0;     ///< vector from the centre of p to the centre of q
     double ix = 0, iy = 0;     ///< impulse on p; q gets the opposite
     double p_vx = 0, p_vy = 0; ///< velocities after the collision
     double q_vx = 0, q_vy = 0;
@@ -35,10 +35,10 @@ struct PairEvent {
     }
 };
 
-/// Each pair is an event on the rank that owns its first disc.
+/// Receives each pair's event on the rank that owns the first disc.
 using PairFollower = EventFollower<PairEvent>;
 
-/// Turns an event in the dynamics' own frame and clock into one in the box. A function of its own,
+/// Converts an event from the dynamics' own frame and clock to the box. It is a separate function
 /// because most dynamics do not need it.
 template <class Dynamics>
 [[gnu::noinline]] void show_in_box(PairEvent& event, const Dynamics& dynamics, double time,
@@ -53,9 +53,9 @@ template <class Dynamics>
 }
 
 /// `p` and `q` are stored states after the collision at `time`, on the dynamics' own clock. `place`
-/// is the first disc at that time, before or after the collision, and `to` is the separation then.
-/// `unit` converts stored velocities to velocities per step. Writes into `event` directly, which
-/// saves a copy.
+/// is the first disc at that time, before or after the collision, and `to` is the separation at
+/// that time. `unit` converts stored velocities to velocities per step. The function writes into
+/// `event` directly, which saves a copy.
 template <class Dynamics>
 [[gnu::always_inline]] inline void record_in(PairEvent& event, const Dynamics& dynamics,
                                              const DiscState& place, const Separation& to,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures where the wall time of a rank goes. A `PhaseClock::Scope` adds the time of its life to
-// one phase. Scopes nest, and the time of an inner one is not added to the outer one. Price: two
-// readings of the clock per scope, so no loop over discs should have a scope inside.
+// Measures how the wall time of a rank is spent. A `PhaseClock::Scope` adds the time of its life to
+// one phase. Scopes may be nested, and the time of an inner scope is not added to the outer one.
+// Cost: two readings of the clock a scope, so no scope should be inside a loop over discs.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@
 
 namespace carrom {
 
-/// `largest_speed` > 0 is the largest on all ranks. **Collective.**
+/// `largest_speed` > 0 is the largest speed on all ranks. **Collective.**
 SpeedSpread survey_speeds(std::span<const DiscState> own, double largest_speed,
                           const Communicator& communicator, int n_threads);
 

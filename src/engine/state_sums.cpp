@@ -35,8 +35,8 @@ void measure_collisions(std::span<const DiscState> own, const SideSpans& columns
     totals.hash = {sums[2], sums[3]};
 }
 
-/// The centre of a departed disc is exactly a radius beyond the side through which it left. So the
-/// coordinate that is furthest outside shows the side.
+/// When a disc departs, its centre is exactly a radius beyond the side through which it left. So
+/// the coordinate that is furthest outside identifies the side.
 void measure_departures(std::span<const DiscState> own, const Box& box,
                         const Communicator& communicator, Totals& totals) {
     for (const DiscState& disc : own) {
@@ -77,7 +77,7 @@ double largest_mass(std::span<const DiscState> own, const SpeciesTable* species_
 void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
                     double velocity_unit, const Communicator& communicator, int n_threads,
                     Totals& totals) {
-    double largest = 0; // the largest component of a velocity
+    double largest = 0; // largest component of a velocity
 #pragma omp parallel for num_threads(n_threads) schedule(static) reduction(max : largest)
     for (std::size_t i = 0; i < own.size(); ++i)
         largest = std::max({largest, std::fabs(own[i].vx), std::fabs(own[i].vy)});

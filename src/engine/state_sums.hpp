@@ -16,12 +16,12 @@
 
 namespace carrom {
 
-/// Fills in the collision counts and the state hash; `columns` run along the discs.
+/// Fills in the collision counts and the state hash; `columns` are in the order of the discs.
 /// **Collective.**
 void measure_collisions(std::span<const DiscState> own, const SideSpans& columns,
                         const Communicator& communicator, int n_threads, Totals& totals);
 
-/// Fills in how many discs have left through which side. **Collective.**
+/// Fills in how many discs have left through each side. **Collective.**
 void measure_departures(std::span<const DiscState> own, const Box& box,
                         const Communicator& communicator, Totals& totals);
 
@@ -31,12 +31,12 @@ void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_
                     double velocity_unit, const Communicator& communicator, int n_threads,
                     Totals& totals);
 
-/// Returns the discs themselves, or, if `effects` open sides, copies in `kept` of
-/// those whose centres are in the box at `time`.
+/// Returns `discs`, or, if a side is open in `effects`, copies in `kept` of the discs
+/// whose centres are in the box at `time`.
 std::span<const DiscState> discs_in_box(std::span<const DiscState> discs, const Effects& effects,
                                         const Extent& box, double time, DiscStates& kept);
 
-/// The arguments of discs' energies, besides the discs.
+/// The data, besides the discs, from which energies are computed.
 struct EnergySetting {
     const Effects& effects;
     const Box& box;
@@ -44,8 +44,8 @@ struct EnergySetting {
     double sync_interval = 0; ///< time between syncs, in micro-steps
 };
 
-/// Fills in all energies except the kinetic one. `shown` are discs as the box sees them; `spins`
-/// run along them, or are empty. **Collective.**
+/// Fills in all energies except the kinetic one. `shown` are discs in the box's own frame; `spins`
+/// are in the same order, or empty. **Collective.**
 void measure_other_energies(std::span<const OtherEnergy> energies, std::span<const DiscState> shown,
                             std::span<const double> spins, const SpeciesTable& species_table,
                             const EnergySetting& setting, const Communicator& communicator,
@@ -74,9 +74,9 @@ Touching touching_of(const Dynamics& dynamics, double time, const Periods& perio
 }
 
 /// Fills in the pairs that overlap at `time`, each counted once, the deepest overlap, the pairs
-/// that touch, and the discs that touch several. Pairs that touch slide along each other if
-/// (d.w)^2 <= 4 tolerance sigma w.w, with d and w their separation and relative velocity. Then
-/// their distance of closest approach is a diameter, to within the tolerance. The grid holds the
+/// that touch, and the discs that touch several others. A touching pair counts as sliding if
+/// (d.w)^2 <= 4 tolerance sigma w.w, where d and w are separation and relative velocity: the
+/// distance of closest approach is then a diameter, to within the tolerance. The grid contains the
 /// population at that time, for partners within a diameter and the tolerance. **Collective.**
 void measure_overlaps(const Population& population, const CellGrid& grid, double time,
                       const Touching& touching, const Communicator& communicator, int n_threads,

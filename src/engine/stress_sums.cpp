@@ -28,7 +28,7 @@ void StressSums::add_flight(double mass, const DiscState& disc, const FlightInte
     energy.add(term_xx + term_yy);
 }
 
-/// Gives the same sums as add_impulse for each term.
+/// The sums are the same as if add_impulse were called for each term.
 void StressTerms::add_to(StressSums& sum) {
     const double from = unit_shift / sum.xx.scale(), // all three sums have one bound
         from_twice = 2 * from;

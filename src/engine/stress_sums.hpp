@@ -3,12 +3,12 @@
 // between discs, and the integral of the sum of m v_a v_b (core/flight_integral.hpp). The pressure
 // tensor follows from it (docs/understanding/pressure.md).
 //
-// Nothing is sampled, so nothing depends on how often sums are read. They are exact, so neither
-// the order of collisions nor the rank that carries them out affects them. A pair's collision
-// adds to one tensor for both parts, which costs a handful of instructions more than impulse
-// times distance alone. The kinetic energy has its own sum; elastic collisions add nothing to it.
-// Whole flights are added at some syncs only, as rarely as the range of the sums allows, because
-// each costs some 60 instructions a disc.
+// Nothing is sampled, so the result does not depend on how often sums are read. Sums are exact, so
+// neither the order of collisions nor the rank that carries them out affects them. A collision of a
+// pair adds one tensor for both parts, which costs a handful of instructions more than impulse
+// times distance alone. The kinetic energy has its own sum, to which elastic collisions add
+// nothing. Whole flights cost some 60 instructions a disc, so they are added only at some syncs, as
+// rarely as the range of the sums allows.
 #pragma once
 
 #include <array>
@@ -43,17 +43,17 @@ struct StressSums {
     StressSums& operator+=(const StressSums& other);
     StressSums& operator-=(const StressSums& other);
 
-    /// Adds the integral of the flight of a disc of this mass at its present velocity. Called when
-    /// the disc leaves the box.
+    /// Adds the integral over the flight of a disc of this mass at its present velocity. It is
+    /// called when the disc leaves the box.
     void add_flight(double mass, const DiscState& disc, const FlightIntegral& integral);
 
     ExactSum xx, xy, yy;
     ExactSum energy; ///< the integral of the sum of m v^2
 };
 
-// Terms are rounded to whole units. If a number of less than 2^51 units is added to `unit_shift`,
-// the last bits of the sum are its nearest integer. So the bits of such sums can be added as
-// integers.
+// Terms are rounded to whole units. After a number of less than 2^51 units is added to
+// `unit_shift`, the last bits of the result are the nearest integer to that number. So the bits of
+// such results can be added as integers.
 constexpr double unit_shift = 0x1.8p52;
 constexpr double most_rounded_units = 0x1p51;
 
@@ -61,7 +61,7 @@ CARROM_DEVICE inline std::uint64_t bits_of(double number) {
     return std::bit_cast<std::uint64_t>(number);
 }
 
-/// Subtracts a term from a sum, which is an ExactSum or one that a GPU adds to.
+/// Subtracts a term from a sum, which is an ExactSum or a sum to which a GPU adds.
 template <class Sum> CARROM_DEVICE void subtract_rounded(Sum& sum, double term) {
     const double units = term * sum.scale();
     if (std::fabs(units) < most_rounded_units)
@@ -92,11 +92,11 @@ CARROM_DEVICE void add_flight_to(Terms& terms, Sums& sums, double mass, const Di
     if (integral.more_y != 0) terms.add(0, -mass * integral.more_y, {0, integral.more_y}, sums);
 }
 
-/// Terms that are kept and added to sums many at a time, which takes a third of the work.
+/// Terms that are collected and added to sums many at a time, which takes a third of the work.
 class StressTerms {
 public:
     /// Records a collision: a disc gets the impulse (ix, iy) from another one at the separation
-    /// `to`. The term is added to `sum` by `add_to` at the latest.
+    /// `to`. The term is added to `sum` now or when `add_to` is called.
     void add(double ix, double iy, const Separation& to, StressSums& sum) {
         ix_[n_] = ix;
         iy_[n_] = iy;
@@ -109,7 +109,7 @@ public:
                     StressSums& sum) {
         add_flight_to(*this, sum, mass, disc, integral);
     }
-    /// Adds the terms that have not been added yet.
+    /// Adds the recorded terms that have not been added yet.
     void add_to(StressSums& sum);
 
 private:
@@ -123,8 +123,8 @@ private:
 
 /// The stress of a collision of a pair. It is constructed before the collision. The integral of m
 /// v_a v_b changes by the weight of the time times -(i_a u_b + u_a i_b) / 2, where i is the impulse
-/// that p gets and u the sum of the relative velocities before and after. This has the form of
-/// impulse times distance for another distance, so both parts are one term.
+/// on p and u is the sum of the relative velocities before and after. This is an impulse times a
+/// distance, too, with u in place of the distance, so both parts are one term.
 template <class Dynamics> class PairStress {
 public:
     CARROM_DEVICE PairStress(const DiscState& p, const DiscState& q) : vx_(p.vx), vy_(p.vy) {
@@ -134,8 +134,8 @@ public:
     double vx() const { return vx_; } ///< velocity of p before the collision
     double vy() const { return vy_; }
 
-    /// Call it after the collision at `time`, with the separation from p to q. `flown` is the time
-    /// of flights before the last sync that are not in the sums yet. Returns p's impulse along x.
+    /// Called after the collision at `time`, with the separation from p to q. `flown`: time of
+    /// flights before the last sync that the sums still lack. Returns p's impulse along x.
     template <class Terms, class Sums>
     [[gnu::always_inline]] CARROM_DEVICE double add_to(Terms& terms, Sums& sum,
                                                        const Dynamics& dynamics, const DiscState& p,
@@ -170,7 +170,7 @@ template <class Dynamics> class WallStress {
 public:
     CARROM_DEVICE explicit WallStress(const DiscState& disc) : vx_(disc.vx), vy_(disc.vy) {}
 
-    /// Call it after the collision, like PairStress::add_to.
+    /// Called after the collision, like PairStress::add_to.
     template <class Terms, class Sums>
     [[gnu::always_inline]] CARROM_DEVICE void add_to(Terms& terms, Sums& sum,
                                                      const Dynamics& dynamics,

@@ -43,14 +43,14 @@ public:
     }
     /// The largest reach of all effects at this sync.
     double reach(std::int64_t n_syncs) const;
-    /// Call it when all states are at the time of the sync. There is no halo, or one as deep as the
-    /// reach, which `visit_near_pairs` searches. Adds to `energy_given()` and to the sums in
-    /// `notes`. **Collective.**
+    /// Call this when all states are at the time of the sync. Either there is no halo, or the halo
+    /// is as deep as the reach that `visit_near_pairs` searches. Adds to `energy_given()` and to
+    /// the sums in `notes`. **Collective.**
     void act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes,
              const std::function<void(const SyncDiscs::VisitNear&)>& visit_near_pairs = {});
     /// Whether an effect also acts before flights.
     bool begins() const;
-    /// Call it before the flights that follow a sync or the scene's start; all states are at that
+    /// Call this before the flights that follow a sync or the scene's start; all states are at that
     /// time. Adds to `energy_given()`. **Collective.**
     void begin(StripDiscs& discs, std::int64_t n_syncs);
     /// Kinetic energy that effects have given to discs of this rank since the run began, spins
@@ -76,7 +76,7 @@ private:
     SpeciesTable species_;
     double inertia_, micro_steps_;
     Box box_;
-    double shear_; ///< per micro-step
+    double shear_; ///< rate of shear per micro-step
     Communicator communicator_;
     int n_threads_;
     double energy_given_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The work that led to a run's state, for reports. The sums over the state itself are public.
+// The work that a run has done, for reports. Sums over the state itself are public.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct RollbackCounts {
     std::uint64_t blocks = 0,
                   blocks_redone = 0; ///< first runs and repetitions of blocks, on all ranks
     /// Collisions of pairs at the same time, within rounding, as an earlier collision of one of the
-    /// two discs. In these cases the order of ids or a rounding decides what follows. Counted on
-    /// all ranks since the engine began. The same for any machine shape.
+    /// two discs. In these cases the order of ids or a rounding decides the result. Counted on all
+    /// ranks since the engine began; equal for any machine shape.
     std::uint64_t simultaneous = 0;
 };
 

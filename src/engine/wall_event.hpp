@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A collision of a disc with a side of the box, or with a fixed body, and what the disc gained by
-// it. Engines record it only if a measurement follows walls. Lasting contacts give such events at
-// syncs, one for all discs that press a side or a body.
+// A collision of a disc with a side of the box or a fixed body, and the impulse and energy that the
+// disc gained. Engines record it only if a measurement follows walls. Lasting contacts give such
+// events at syncs, one event for all discs that press a side or a body.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@
 
 namespace carrom {
 
-/// Impulses and energies are per step and as the box sees them; sides are in the order of
+/// Impulses and energies are per step and in the box's own frame; sides are in the order of
 /// `side_names`.
 struct WallEvent {
     std::uint8_t side = 0;
-    double normal = 0; ///< impulse on the disc across the side, positive away from it
+    double normal = 0; ///< impulse on the disc normal to the side, positive away from it
     double along = 0;  ///< impulse on the disc along the side, in the direction of the axis
     double energy = 0; ///< kinetic energy of the disc's motion that the side has added
     /// The impulse of a lasting contact until the next sync, not of a collision
@@ -50,9 +50,9 @@ inline WallEvent body_event(const Frame& frame, const BodyTouch& touch, double m
     return event;
 }
 
-/// `after` is the disc's stored state and (dx, dy) is the change of its stored velocity. `axis` 0
-/// means left and right. If `is_corner`, the disc meets two sides at once, and each side gets the
-/// part that is normal to it.
+/// `after` is the disc's stored state and (dx, dy) the change of its stored velocity. `axis` is 0
+/// for left and right. If `is_corner`, the disc meets two sides at the same time, and each side
+/// gets the part normal to it.
 inline WallEvent wall_event(const Frame& frame, std::size_t axis, double mass,
                             const DiscState& after, double dx, double dy, double unit,
                             bool is_corner) {

@@ -8,21 +8,21 @@ namespace carrom {
 
 namespace {
 
-// Times in nanoseconds, on one core, with discs in cache. In main memory all take some
-// 1.2 times as long.
+// Times in nanoseconds on one core, with discs in cache. If discs are in main memory, all times are
+// some 1.2 times as long.
 constexpr double disc = 30;     ///< time for each disc in a window of any length
 constexpr double partner = 1.3; ///< time for each disc in a square with edges of one reach
-/// Time for predicting a disc again that was hit inside the window
+/// Time for a new prediction of a disc that was hit inside the window
 constexpr double hit = 85;
 /// Time for each partner of such a disc in a square with edges of one reach
 constexpr double hit_partner = 3;
-/// For each disc in a part of a micro-step, the end of the part included.
+/// Time for each disc in a part of a micro-step, including the work at the end of the part.
 constexpr double disc_in_part = 65;
-/// For each partner in a part of a micro-step. It is small because most pairs are rejected early.
+/// Time for each partner in a part of a micro-step; small, because most pairs are rejected early.
 constexpr double partner_in_part = 0.7;
 constexpr double fast_disc = 200;  ///< time for each fast disc in a part of a micro-step
-constexpr double fast_partner = 1; ///< time for each disc in the cells along a fast disc's path
-/// For each pair of fast discs. It is small because fast discs lie side by side in memory.
+constexpr double fast_partner = 1; ///< time for each disc in cells along a fast disc's path
+/// Time for each pair of fast discs; small, because fast discs lie side by side in memory.
 constexpr double fast_pair = 0.1;
 constexpr double largest_fast_share = 0.1;
 
@@ -38,7 +38,7 @@ double cost_per_micro_step(const WindowNeeds& needs, double duration) {
     return duration > 1 ? once + again * (1 - 1 / duration) : once;
 }
 
-/// The cost of a part of a micro-step in which some discs are faster than `usual_speed`.
+/// The cost of a micro-step in parts, if some discs are faster than `usual_speed`.
 double cost_with_fast_discs(const WindowNeeds& needs, double duration, double usual_speed,
                             double share) {
     WindowNeeds usual = needs;

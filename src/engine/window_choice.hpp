@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the length of a window: long ones share the cost of sorting discs into
-// cells, but search further. It is pure arithmetic on numbers that all ranks know, so
-// all choose the same. The choice affects the run's time, not its bits.
+// Chooses the length of a window. Long windows share the cost of sorting discs into
+// cells, but need longer searches. All ranks know the numbers that the choice uses, so
+// all ranks choose the same. The choice affects the run's time, not its bits.
 #pragma once
 
 #include <algorithm>
@@ -22,18 +22,18 @@ struct SpeedSpread {
     static constexpr std::size_t n_parts = 16;
     using Counts = std::array<std::uint64_t, n_parts>;
 
-    double largest = 0; ///< the largest speed when discs were counted
+    double largest = 0; ///< the largest speed at the time of the count
     /// The share of discs faster than k / n_parts of the largest speed
     std::array<double, n_parts> share_above{};
 
     SpeedSpread() = default;
-    /// `counts[k]`: discs of all ranks whose speeds are between k and k + 1 times 1 / n_parts of
-    /// the largest.
+    /// `counts[k]`: number of discs on all ranks with speeds from k to k + 1, in units of the
+    /// largest speed over n_parts.
     SpeedSpread(const Counts& counts, double largest_speed);
     double speed_of(std::size_t part) const {
         return largest * static_cast<double>(part) / n_parts;
     }
-    double mean() const; ///< exact to half of 1 / n_parts
+    double mean() const; ///< mean speed, exact to largest / (2 n_parts)
 };
 
 /// The arguments of the choice: lengths in the scene's unit, speeds in lengths per micro-step.
@@ -42,12 +42,12 @@ struct WindowNeeds {
     double radius = 0;
     double n_discs = 0;
     double largest_speed = 0;
-    double hits_per_micro_step = 0; ///< collisions of a disc, or the best estimate
+    double hits_per_micro_step = 0; ///< collisions per disc and micro-step, or an estimate
     double discs_per_rank = 0;
-    const SpeedSpread* spread = nullptr; ///< null if it is not known
+    const SpeedSpread* spread = nullptr; ///< null if the distribution of speeds is not known
 };
 
-/// Estimates the collisions of a disc in a micro-step from the mean speed in a thin gas.
+/// Estimates the collisions per disc and micro-step from the mean speed in a dilute gas.
 double guess_of_hits(const WindowNeeds& needs);
 
 /// The largest distance, at a window's anchor, between two discs that collide in a window of this
@@ -61,11 +61,11 @@ struct WindowChoice {
     int n_micro = 1;
     int n_parts = 1;
     double usual_speed =
-        0; ///< the speed that cells allow for; the few discs that are faster search on their own
+        0; ///< the speed that cells allow for; the few faster discs have their own searches
 };
 WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<double> wanted);
 
-/// The longest window in a box with periodic sides. Discs must not cross the whole box in it,
+/// The longest window in a box with periodic sides. Discs must not cross the whole box in a window,
 /// because then many images would have to be searched.
 inline double longest_in_period(const Periods& periods, double speed) {
     return periods.are_any() ? periods.shortest() / (2 * speed)

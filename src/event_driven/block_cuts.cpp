@@ -10,9 +10,9 @@ namespace carrom {
 
 namespace {
 
-/// Number of rounds in which shares are adjusted, in the first window and in later ones. Rounds end
-/// earlier if the block with most work has less than `even_enough` times the mean. A round with 128
-/// blocks takes 40 us of one thread.
+/// Number of rounds in which shares are adjusted, in the first window and in later windows. Rounds
+/// end earlier if the largest work of a block is below `even_enough` times the mean. A round with
+/// 128 blocks takes 40 us on one thread.
 constexpr int first_rounds = 10, later_rounds = 4;
 constexpr double even_enough = 1.08;
 
@@ -26,7 +26,7 @@ template <class Claim> int first_beyond(int first, int end, const Claim& is_beyo
 }
 
 /// Cuts a rectangle across the longer side of the part that holds discs, so that `share` of the
-/// work is below the cut. Returns false if there is no work, or only one cell of it.
+/// work is below the cut. Returns false if there is no work, or if one cell holds all of it.
 bool cut_longer(const CellBlock& part, double share, const CellSums& sums, bool& by_column,
                 int& cut) {
     const double wanted = share * static_cast<double>(sums.in(part));
@@ -102,8 +102,8 @@ void BlockCuts::cut_by_work(const CellBlock& cells, const CutNeeds& needs, const
                 return cut_longer(part, lower / (lower + upper), sums, cut.is_by_column, cut.at);
             });
     };
-    // Only work in own cells is known. The halo beyond them is assumed to have the same work per
-    // area.
+    // Only the work in own cells is known. The halo around them is assumed to have the same work
+    // per area.
     const auto work_with_halo = [&](const CellBlock& block) {
         const CellBlock seen = block.widened(needs.halo).within(needs.frame),
                         known = seen.within(cells);
@@ -126,8 +126,8 @@ void BlockCuts::cut_by_work(const CellBlock& cells, const CutNeeds& needs, const
             least = most / mean;
             shares_ = shares;
         }
-        // The square root damps the change. Halos change with the cuts, so shares that follow the
-        // full ratio would oscillate.
+        // The square root damps the change, because halos change with the cuts, so shares that
+        // follow the full ratio would oscillate.
         for (std::size_t k = 0; k < work_.size(); ++k)
             shares[numbers_[k]] *= std::sqrt(std::clamp(mean / std::max(work_[k], 1.0), 0.5, 2.0));
     }

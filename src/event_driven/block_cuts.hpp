@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the cells of a strip are cut into blocks. One thread takes blocks of equal areas. Several
-// threads take blocks of about equal work, because the block with most work decides how long all
-// others wait. The cuts affect the run's time, not its bits.
+// How the cells of a strip are cut into blocks. If there is one thread, blocks have equal areas. If
+// there are several, blocks have about equal work, because all threads wait for the block with most
+// work. The cuts affect the run's time, not its bits.
 //
-// The cells are halved again and again across their longer side, so that blocks stay as square as
-// they can be: a square has the least halo. The work of a block includes that of its halo. Price:
-// two passes over the cells, shared by the threads, and four bytes a cell while the cuts are made.
+// The cells are halved repeatedly across their longer side, so that blocks are as square as
+// possible, because a square has the smallest halo. The work of a block includes its halo. Cost:
+// two passes over the cells, shared by the threads, and four bytes a cell while cuts are made.
 #pragma once
 
 #include <algorithm>
@@ -79,11 +79,11 @@ class BlockCuts {
 public:
     /// Cuts `cells` into blocks of `block_columns` by `block_rows` cells.
     void cut_evenly(const CellBlock& cells, int block_columns, int block_rows);
-    /// Cuts `cells` into blocks of about equal work, or into less blocks if there are no more
+    /// Cuts `cells` into blocks of about equal work, or into fewer blocks if there are too few
     /// cells. `sums` has been filled for the same cells.
     void cut_by_work(const CellBlock& cells, const CutNeeds& needs, const CellSums& sums);
 
-    /// Blocks that touch follow each other, as far as possible.
+    /// The blocks, in an order in which neighbours follow each other as far as possible.
     const std::vector<CellBlock>& blocks() const { return blocks_; }
     /// The expected work of each block with its halo, in any unit. Empty if cells were cut evenly.
     const std::vector<double>& work() const { return work_; }
@@ -91,7 +91,7 @@ public:
     std::size_t block_of(int column, int row) const;
 
 private:
-    /// A rectangle that is a block, or is cut in two.
+    /// A rectangle that is a block or is divided in two parts.
     struct Node {
         bool is_block = true, is_cut_by_column = false;
         int cut = 0; ///< where the upper part of a divided rectangle begins
@@ -103,8 +103,8 @@ private:
         int at = 0;
         std::size_t middle = 0; ///< the upper part begins with this block number
     };
-    /// Decides where to cut a rectangle that is for the blocks [first, end). Returns false to make
-    /// it one block.
+    /// Decides where to cut a rectangle for the blocks [first, end). Returns false to make the
+    /// rectangle one block.
     using Decision =
         std::function<bool(const CellBlock& part, std::size_t first, std::size_t end, Cut& cut)>;
 
@@ -113,8 +113,8 @@ private:
                     const Decision& decide);
 
     std::vector<CellBlock> blocks_;
-    std::vector<std::size_t> numbers_; ///< for each node the first of the blocks that it is for
-    std::vector<Node> nodes_;          ///< the first node is all cells
+    std::vector<std::size_t> numbers_; ///< for each node the number of its first block
+    std::vector<Node> nodes_;          ///< the first node contains all cells
     std::vector<double> work_;         ///< work of the blocks cut by work
     std::vector<double> shares_; ///< work of the blocks without their halos, relative to each other
 };

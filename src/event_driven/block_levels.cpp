@@ -3,8 +3,8 @@
 //
 // A disc searches partners of its own level and of levels of larger discs among discs and ghosts.
 // In levels of smaller discs each of its images near the box searches among discs alone, so that
-// the ghosts of a level need not lie deeper than its own discs reach, however large other discs
-// are.
+// the depth of a level's ghosts depends only on the reach of its own discs, however large other
+// discs are.
 #include <algorithm>
 #include <cmath>
 
@@ -64,8 +64,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::list_levels_of_all()
     lay_levels(ground.extent, periods(), ground.n_own);
 }
 
-/// Gives slots to the discs in `in_levels`. Cells fill `extent`; those of a whole box repeat with
-/// the periods `across`. Discs before `n_at_home` have the image that the run works with.
+/// Gives slots to the discs in `in_levels`. Cells fill `extent`; cells of a whole box repeat with
+/// the periods `across`. Discs with indices below `n_at_home` have the image that the run uses.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::lay_levels(const Extent& extent, const Periods& across,
                                              std::size_t n_at_home) {
@@ -92,7 +92,7 @@ void BlockRun<Dynamics>::Scratch::lay_levels(const Extent& extent, const Periods
     cell_starts = layout.cell_starts();
 }
 
-/// Sets the scales as set_scales does. The unit of lanes is a cell of the smallest discs.
+/// Does the work of set_scales for levels. The unit of lanes is a cell of the smallest discs.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales_of_levels() {
     const BlockWindow& window = ground.window;
     cell_width = levels.front().cells.width;
@@ -149,7 +149,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales_of_levels
     y_inner_high = static_cast<float>((walls.y_high - inner - y_corner) * cells_per_length);
 }
 
-/// Fills the lane of radii. Each is a little larger, so that rounding loses no contact.
+/// Fills the lane of radii. Each radius is a little enlarged, so that rounding loses no contact.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::measure_radii() {
     const double size = dynamics.size_at(ground.window.end),
                  scale = cells_per_length * (1 + 0x1p-18);
@@ -161,7 +161,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::measure_radii() {
     }
 }
 
-/// Pairs of one level are found as pairs of equal discs are. Pairs of two levels are found from the
+/// Pairs of one level are found like pairs of equal discs. Pairs of two levels are found from the
 /// larger disc, because there are fewer large discs.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_levels() {
     for (std::size_t own = 0; own < levels.size(); ++own) {
@@ -196,8 +196,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_levels() {
     }
 }
 
-/// Fills `runs` with the slots of the level's cells that the flight box covers, and makes room for
-/// all of them in the lists of partners.
+/// Fills `runs` with the slots of the level's cells that the flight box covers, and reserves memory
+/// for all these slots in the lists of partners.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::find_runs_of(const LevelCells& level, const FlightBox& box,
                                                bool with_ghosts) {
@@ -277,8 +277,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_sized(std::u
         predict_in_level(flight, own, other);
 }
 
-/// Predicts contacts of two discs that have just collided. If they have the same level, they search
-/// nearly the same cells, and so together.
+/// Predicts contacts of two discs that have just collided. Discs of the same level search nearly
+/// the same cells, so one search serves both.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_two_sized(std::uint32_t p, std::uint32_t q) {
     const std::size_t own = level_of_slot(p);

@@ -63,15 +63,15 @@ void BlockRun<Dynamics>::run_gathered(std::span<std::uint64_t> histories) {
     scratch_->report(histories);
 }
 
-/// Carries out the events that are left up to a time.
+/// Carries out the remaining events up to the time `end`.
 template <class Dynamics> void BlockRun<Dynamics>::run_events(double end) {
     Scratch& s = *scratch_;
     const EventOrder before(s.discs);
     const auto is_current = [&s](const Event& event) {
         return s.versions_of(event) == event.versions;
     };
-    // After a request to stop the loop ends early. This run has no valid result, and the engine
-    // gives up the step.
+    // After a request to stop, the loop ends early. The result of this run is then invalid, and the
+    // engine abandons the step.
     for (Event event; s.queue.pop(event, end, before, is_current) && !s.outcome->is_cascade &&
                       !s.is_void && !is_stop_overdue();)
         s.happen(event);
@@ -123,9 +123,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_pairs(const 
     for (std::size_t k = 0; k < n_partners; ++k) predict_pair(slot, partners[k]);
 }
 
-/// Predicts for two discs that have just collided. They touch, so one search of the box around both
-/// flights is faster than two searches. The filter leaves out the pair itself, so the predicate
-/// alone decides whether these two meet again.
+/// Predicts contacts of two discs that have just collided. They touch, so one search of the box
+/// around both flights is faster than two searches. The search leaves out the pair itself, so the
+/// predicate alone decides whether these two discs meet again.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_t q) {
     if (!dynamics.has_pairs()) return;
@@ -155,8 +155,8 @@ template <class Dynamics>
         move_image(discs[b], -*image);
     if (!contact.exists()) return;
     const double time = contact.base + contact.delay;
-    // Two discs that have just collided with each other do not collide again at the same time. What
-    // remains of their approach is a rounding error, too small for an impulse.
+    // Two discs that have just collided with each other do not collide again at the same time. The
+    // remaining speed of approach is a rounding error, too small for an impulse.
     if (have_just_collided(a, b, time)) return;
     push(time, a, b, image);
 }
@@ -174,7 +174,7 @@ void BlockRun<Dynamics>::Scratch::predict_image(std::uint32_t a, std::uint32_t b
     predict_shifted(a, b, &image);
 }
 
-/// Fixed bodies behind the first side that the disc meets need no search.
+/// Fixed bodies behind the first side that the disc meets are not searched.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::uint32_t slot) {
     const double begin = ground.window.begin, end = ground.window.end;
     const DiscState& disc = discs[slot];
@@ -305,7 +305,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     }
 }
 
-/// Collides two discs, with the second one at the place of the event's image.
+/// Collides two discs, with the second disc moved to the place of its image in the event.
 template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event& event) {
     DiscState &p = discs[event.p], &q = discs[event.q];
     const PairStress<Dynamics> stress(p, q);
@@ -331,7 +331,7 @@ template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event&
 }
 
 /// Records that an own disc has met a disc from beyond the ring, whose history is not compared.
-/// Either that disc was faster than the speed bound, or this run is wrong.
+/// Either the other disc was faster than the speed bound, or this run is wrong.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::uint32_t slot) {
     if (is_compared(slot)) return;
     outcome->far_partner = std::max({outcome->far_partner,

@@ -12,7 +12,7 @@
 //   |     |     |     |      |   .  | r | o   o | r |  .   |
 //   |  D  |  E  |  F  |      |      |   |   o   |   |      |   o is an own disc: its new state
 //   |     |     |     |      |      |   +-------+   |      |     is kept, its history goes to
-//   +-----+-----+-----+      |  .   | r       r     |  .   |     `histories`, where all blocks look
+//   +-----+-----+-----+      |  .   | r       r     |  .   |     `histories`, which all blocks read
 //                            |      +---------------+      |
 //                            |       .        .       .    |
 //                            +-----------------------------+
@@ -25,12 +25,12 @@
 //   run of B: history h' of disc 7 --+--- h != h': if disc 7 can have met an own disc of B, A and B
 //                                         run again with twice the halo (rollback)
 //
-// The result of a run is right if that holds for all discs of its ring, and if its own discs have
-// collided with no disc from beyond the ring.
+// The result of a run is right if h = h' for all discs of its ring, and if its own discs have not
+// collided with a disc from beyond the ring.
 //
-// The run works on copies in the order of cells, 64 bytes and four floats a disc, so that they stay
-// in the L2 cache. Most pairs are rejected in single precision, many at a time. The predicate in
-// double precision decides on the rest.
+// The run uses copies of the discs in the order of cells, 64 bytes and four floats a disc, so that
+// the copies stay in the L2 cache. Most pairs are rejected in single precision, many in parallel.
+// The predicate in double precision decides about the rest.
 #pragma once
 
 #include <cstdint>
@@ -53,22 +53,22 @@
 
 namespace carrom {
 
-/// Times since the last sync. An event belongs to the window if begin < time <= end. The first
-/// window after a sync also holds its begin. In all others the events at `begin` have been carried
-/// out by the window before, and a contact at that time is one of a pair that has just collided.
+/// Times since the last sync. An event belongs to the window if begin < time <= end; the first
+/// window after a sync also includes events at `begin`. In later windows the preceding window has
+/// carried out these events, and a contact at `begin` is between discs that have just collided.
 struct BlockWindow {
     double begin = 0, end = 1;
     bool holds_begin = true;
-    /// No disc is faster than this at the start. The run is void if a disc gets further from its
-    /// initial position than this speed allows.
+    /// No disc is faster than this at the start. The run is invalid if a disc moves further from
+    /// its initial position than this speed allows.
     double speed_bound = 0;
 
     double duration() const { return end - begin; }
     BlockWindow with_bound(double speed) const { return {begin, end, holds_begin, speed}; }
 };
 
-/// The largest distance that two discs can have at the start of a window in which they meet.
-/// `n_reach` cells must cover it.
+/// The largest distance at the start of a window between two discs that can meet in it. `n_reach`
+/// cells must cover this distance.
 double block_reach(const BlockWindow& window, double diameter, const Box& box);
 
 /// Empty sums in the engine's unit, and the time of flights before the last sync.
@@ -95,11 +95,11 @@ struct BlockGround {
     std::size_t n_own = 0;
     const SideColumns* columns = nullptr; ///< rows in the order of `discs`
     const CellGrid* grid = nullptr;       ///< holds the discs at the window's start
-    CellBlock own_cells; ///< an own disc that rounding puts outside counts in the nearest cell
+    CellBlock own_cells; ///< own discs that are outside by rounding count in the nearest cell
     BlockWindow window;
     std::span<const double> stops{}; ///< times inside the window at which parts of it end
-    /// Whether there is a single run of the whole box. Then histories are not compared, and no grid
-    /// is built.
+    /// Whether there is one run of the whole box. Then no histories are compared, and no grid is
+    /// built.
     bool is_alone = false;
     BoxCells box_cells{};                ///< for runs of the whole box
     Extent extent{};                     ///< the box, for runs of the whole box
@@ -108,8 +108,8 @@ struct BlockGround {
     BlockNotes notes{};
 };
 
-/// The event history of a disc of a block's ring. It is 0 if the disc had no event. Otherwise it is
-/// a hash of times, partners and results, whose last byte says how fast the disc has become.
+/// The event history of a disc of a block's ring. It is 0 if the disc had no event, otherwise a
+/// hash of times, partners and results, whose last byte is a SpeedClass.
 struct HaloRecord {
     LocalIndex index = 0;
     std::uint64_t history = 0;
@@ -135,11 +135,11 @@ struct LoggedEvent {
     double impulse = 0;
     double gained_x = 0, gained_y = 0; ///< change of velocity, per micro-step
     double vx = 0, vy = 0;             ///< velocity of the first disc, afterwards
-    BodyTouch touch{};                 ///< of a fixed body
+    BodyTouch touch{};                 ///< contact with a fixed body
 };
 
-/// The state of a disc at the end of a window. It leaves out the members that a window does not
-/// change, which saves a quarter of the memory. Many new states are kept until the window is
+/// The state of a disc at the end of a window. Members that a window does not change are left out,
+/// which saves a quarter of the memory, because many new states are kept until the window is
 /// validated.
 class NewState {
 public:
@@ -149,8 +149,8 @@ public:
           wall_collisions_(disc.wall_collisions & low_bits), is_departed_(disc.is_departed),
           pair_collisions_(disc.pair_collisions & low_bits), has_collided_(disc.has_collided) {}
 
-    /// Requires that `disc` is as it was at the window's start, and that its counters grow by less
-    /// than 2^31.
+    /// Requires that `disc` is in its state of the window's start, and that its counters have
+    /// increased by less than 2^31.
     void overwrite(DiscState& disc) const {
         disc.x = x_;
         disc.y = y_;
@@ -186,7 +186,7 @@ struct BlockPart {
 
 /// The results of a run. Lists begin with the entries of the first part.
 struct BlockOutcome {
-    std::vector<BlockPart> parts; ///< one for each stop, and the last one
+    std::vector<BlockPart> parts; ///< one part for each stop, and one for the window's end
     std::vector<LocalIndex> hit;  ///< own discs that have collided, once for each part
     RawVector<NewState> states;   ///< the new states of the discs in `hit`, in the same order
     SideColumns columns;          ///< their new values in the side columns
@@ -205,8 +205,8 @@ struct BlockOutcome {
     DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if the disc meets a wall
     double cascade_time = 0;
 
-    /// The entries of a list that belong to the parts from `first` to before `end`, if `number` is
-    /// the list's member of BlockPart.
+    /// The entries of a list that belong to the parts from `first` up to but without `end`;
+    /// `number` is the list's member of BlockPart.
     std::pair<std::size_t, std::size_t> entries(std::size_t BlockPart::* number, std::size_t first,
                                                 std::size_t end) const {
         const auto up_to = [&](std::size_t part) { return part > 0 ? parts[part - 1].*number : 0; };
@@ -232,7 +232,7 @@ public:
     void run_whole(const BlockGround& ground, const CellBlock& block,
                    std::span<std::uint64_t> histories, BlockOutcome& outcome);
 
-    /// Uses these dynamics from now on. After a sync they differ, because walls have moved.
+    /// Uses these dynamics from now on, because walls have moved since the last sync.
     void change_dynamics(const Dynamics& dynamics);
 
     std::size_t bytes() const;

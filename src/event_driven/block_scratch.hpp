@@ -20,13 +20,13 @@ namespace carrom {
 struct EventHistory {
     static constexpr std::uint32_t nobody = 0xfffffffd;
 
-    /// See HaloRecord. In a single run of the whole box it is only 0, or 1 after an event.
+    /// Hash of the disc's events (see HaloRecord). A run of the whole box sets 1 after any event.
     std::uint64_t history = 0;
     std::uint32_t generation = 0;   ///< generation of the last collision
     std::uint32_t partner = nobody; ///< partner in the last collision
 
-    /// Adds a collision: its time, the partner's id and the velocities after it. The position
-    /// follows from these and the state before.
+    /// Adds a collision to the hash: its time, the partner's id and the velocities after the
+    /// collision. These determine the position, so the hash need not contain it.
     void add(double time, const DiscState& disc, std::uint64_t partner_id, const double* spin,
              SpeedClass speed) {
         const auto mixed = [](double value, std::uint64_t factor) {
@@ -45,18 +45,18 @@ struct EventHistory {
 };
 static_assert(sizeof(EventHistory) == 16);
 
-/// The bounding box, in cells, of the positions at the window's start of all possible partners of a
-/// flight.
+/// The smallest rectangle, in cells, that contains the positions at the window's start of all
+/// possible partners of a flight.
 struct FlightBox {
     float left = 0, right = 0, bottom = 0, top = 0;
 };
 
-/// The cells that a flight box covers. The last ones are included.
+/// The cells that a flight box covers, `left` to `right` and `bottom` to `top`, both included.
 struct CellsOfBox {
     int left = 0, right = 0, bottom = 0, top = 0;
 };
 
-/// The cells of a level of sizes.
+/// The cells of one level of disc sizes (size_levels.hpp).
 struct LevelCells {
     BoxCells cells;
     double smallest_radius = 0, largest_radius = 0; ///< radii at the window's end
@@ -64,14 +64,14 @@ struct LevelCells {
     std::uint32_t end_slot = 0;
     float columns_per_unit = 1, rows_per_unit = 1; ///< cells per unit of the lanes
     float left = 0, bottom = 0;                    ///< corner of the cells, in units of the lanes
-    float farthest = 0; ///< as Scratch::farthest, without the radius of the disc that searches
+    float farthest = 0; ///< half width of a flight box, without the searching disc's radius
 
     int n_columns() const { return cells.n_columns + 2 * cells.n_beside; }
     int n_rows() const { return cells.n_rows + 2 * cells.n_above; }
 };
 
 template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
-    /// Whether discs have several radii and lie in levels of cells. False if images move.
+    /// Whether discs of several radii lie in levels of cells. Moving images exclude this.
     static constexpr bool has_sizes = Dynamics::has_species && !Dynamics::has_moving_images;
 
     explicit Scratch(const Dynamics& of_scene) : dynamics(of_scene) {}
@@ -83,7 +83,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void set_scales();
     void mark_own(const CellBlock& own);
     void mark_own_of_all(const CellBlock& own);
-    /// Stores a disc's flight: where it would have been at the window's start, in cells.
+    /// Stores a disc's flight by its position, in cells, extrapolated to the window's start.
     [[gnu::always_inline]] void place(std::uint32_t slot, double start) {
         const DiscState& disc = discs[slot];
         const auto [along, across] = turned(axis, x_of(disc, start), y_of(disc, start));
@@ -126,8 +126,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
                                             windows_per_time);
         return {x[slot] + vx[slot] * now, y[slot] + vy[slot] * now, vx[slot], vy[slot], now, slot};
     }
-    /// Written without branches on signs, which are unpredictable: a flight ends at, before or
-    /// behind its start.
+    /// The box around the rest of a flight. It is computed without branches on the signs of
+    /// velocities, because the processor cannot predict these branches.
     FlightBox box_of(const Flight& flight, float half_side) const {
         const float half = (1 - flight.now) / 2;
         const float dx = flight.vx * half, dy = flight.vy * half;
@@ -137,8 +137,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     }
     /// Lists the runs of slots in the cells that the flight box covers.
     void find_runs(const FlightBox& box);
-    /// Fills `runs` with the slots of these cells, and resizes the lists of partners so that all of
-    /// them fit. The starts of a column's cells follow those of the column before.
+    /// Fills `runs` with the slots of the covered cells, and resizes the lists of partners so that
+    /// all of these slots fit. `starts` holds one column of cells after the other.
     [[gnu::always_inline]] void list_runs(const std::uint32_t* starts, std::size_t column_length,
                                           const CellsOfBox& covered) {
         starts += static_cast<std::size_t>(covered.left) * column_length;
@@ -163,9 +163,9 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
             predict_pairs(flight_of(slot));
     }
     void predict_pairs(const Flight& flight);
-    /// If rows of images slide, the two ghosts of a pair need not lie in opposite cells, so for a
-    /// pair across the seam neither disc may come first in the order of cells. So all partners of
-    /// each disc are searched, and a pair may be found twice.
+    /// Searches the partners of every disc, so a pair may be found twice. This is needed if rows of
+    /// images slide: the two ghosts of a pair across the seam need not lie in opposite cells, so
+    /// the order of cells may make neither disc the first of the pair.
     void predict_pairs_of_all() {
         for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
             if (!ghost_at(slot)) predict_pairs({x[slot], y[slot], vx[slot], vy[slot], 0, slot});
@@ -220,7 +220,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         constexpr auto largest = static_cast<double>(largest_speed_class);
         return static_cast<SpeedClass>(std::min(1 + squared_speed * classes_per_squared, largest));
     }
-    /// Null where discs do not turn.
+    /// The disc's angular velocity, or null if discs do not rotate.
     double* spin_of(std::uint32_t slot) {
         return dynamics.has_spin() ? &columns[SideColumn::spin][slot] : nullptr;
     }
@@ -234,8 +234,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     const Ghost* ghost_at(std::uint32_t slot) const {
         return Dynamics::is_periodic && is_whole ? layout.ghost_at(slot) : nullptr;
     }
-    /// Whether the two discs collided with each other at this time and with no other disc since.
-    /// Their images may have been different ones.
+    /// Whether the two discs collided with each other at this time and with no other disc since. In
+    /// a periodic box this is also true if other images of them collided.
     bool have_just_collided(std::uint32_t a, std::uint32_t b, double time) const {
         if constexpr (Dynamics::is_periodic) {
             const auto was = [this](std::uint32_t partner, std::uint32_t disc) {
@@ -269,19 +269,19 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     int owning_column(int column) const {
         return std::clamp(column, ground.own_cells.first_column, ground.own_cells.end_column - 1);
     }
-    /// Slots of own cells (column, first_row .. last_row), counted from the corner of `cells`.
+    /// Slots of cells (column, first_row .. last_row) that are counted from the corner of `cells`.
     SlotRange cell_run(int column, int first_row, int last_row) const {
         const std::uint32_t* const starts = cell_starts.data() +
                                             static_cast<std::size_t>(column) * cell_rows;
         return {starts[first_row], starts[last_row + 1]};
     }
-    /// Slots of cells of the grid.
+    /// Slots of cells (column, first_row .. last_row) that are counted as in the rank's grid.
     SlotRange grid_run(int column, int first_row, int last_row) const {
         return cell_run(column - cells.first_column, first_row - cells.first_row,
                         last_row - cells.first_row);
     }
 
-    /// Whether the disc's owner reports its events, because the disc is own or in the ring.
+    /// Whether the disc is in the ring (own discs included), so that the block reports its history.
     bool is_compared(std::uint32_t slot) const {
         if (has_sizes) return is_of_ring[slot] != 0;
         const auto behind = std::upper_bound(cell_starts.begin(), cell_starts.end(), slot);
@@ -304,7 +304,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         is_void = true;
     }
 
-    /// Call it after the collision, while the second disc is at the position of the event's image.
+    /// Records a collision. Call this after it, while the second disc is at the image's position.
     [[gnu::noinline]] void record_pair(const Event& event, const PairStress<Dynamics>& before,
                                        const Separation& to) {
         if (!outcome->pairs.has_room()) [[unlikely]] // a function of its own, so that the loop
@@ -346,9 +346,9 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     double x_corner = 0, y_corner = 0, cell_width = 1, cells_per_length = 1, cells_per_speed = 1,
            windows_per_time = 1;
     float column_limit = 0, row_limit = 0;
-    float rows_per_cell = 1; ///< rows may be higher than columns are wide
+    float rows_per_cell = 1; ///< cell width over cell height; cells may be higher than wide
     float touching_squared = 0,
-          /// Farthest: half width of a flight box on each side of its flight, in cells
+          /// `farthest`: distance in cells by which a flight box extends beyond its flight
         farthest = 0;
     float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0,
           y_inner_high = 0;    ///< a disc between these bounds, in cells, is near no wall
@@ -370,7 +370,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::vector<std::uint32_t> partners,
         others_partners; ///< partners of one disc, and of the disc that it collided with
     std::vector<std::uint32_t> later,
-        /// Partners of the discs of a column, and for each disc the end of its partners
+        /// `later` has the partners of a column's discs; `later_ends` has their end for each disc
         later_ends;
     CascadeWatch cascade_watch;
     BlockOutcome* outcome = nullptr;
@@ -378,8 +378,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     StressTerms stress_terms;       ///< terms that have not been added to the part's sums yet
     double bound_squared = 0;       ///< square of the speed bound
     float bound_lane_squared = 0;   ///< the square of a slightly smaller bound, in cells per window
-    double void_squared = 0;        ///< square of the speed with which a run ends at once
-    double too_fast = 0;            ///< see BlockOutcome
+    double void_squared = 0;        ///< square of the disc speed that ends a run immediately
+    double too_fast = 0;            ///< the value for BlockOutcome::too_fast
     bool is_void = false;           ///< a disc is so fast that the window will be far shorter
     double largest_squared = 0;     ///< square of BlockOutcome::largest_speed
     double classes_per_squared = 1; ///< number of speed classes for each unit of the squared speed
@@ -391,7 +391,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::vector<float> radii; ///< radius of the disc in each slot, in cells
     /// Margins that are added to sums of radii, by the levels of both discs
     std::vector<float> margins;
-    /// For each slot, whether the disc's owner reports its events
+    /// Whether the disc in each slot is in the ring, so that the block reports its history
     std::vector<std::uint8_t> is_of_ring;
 };
 

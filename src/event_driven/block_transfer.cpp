@@ -134,8 +134,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::list_all_discs() {
     cell_starts = layout.cell_starts();
 }
 
-/// Sets the units of the filter's lanes, which are cells and windows, and the margins that cover
-/// the errors of single precision.
+/// Sets the units of the filter's lanes (lengths in cells, times in windows), and the margins that
+/// cover the errors of single precision.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
     column_limit = static_cast<float>(cells.end_column - cells.first_column - 1);
     row_limit = static_cast<float>(cells.end_row - cells.first_row - 1);
@@ -205,7 +205,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own_of_all(cons
     }
 }
 
-/// Reports a disc that is an own disc of the block or in its ring.
+/// Reports a disc that is the block's own or in its ring.
 template <class Dynamics>
 [[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::report_disc(
     std::uint32_t slot, std::span<std::uint64_t> histories, std::size_t& next,
@@ -277,7 +277,7 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
 }
 
-/// Own discs are written in the order of cells, in which the rank's discs lie.
+/// Reports own discs in the order of cells, which is also the order of the rank's discs.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::report_by_cells(std::span<std::uint64_t> histories,
                                                   double& end_squared) {
@@ -315,7 +315,7 @@ void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double ti
                         8 * 0x1p-53 * dynamics.box().longest();
     const double speed = std::sqrt(dynamics.squared_speed(disc));
     if (speed <= window.speed_bound && away <= window.speed_bound * elapsed) return;
-    // A disc that is hardly too fast might not be tested at its next collision, so it is an error.
+    // A disc just above the bound might not be tested at its next collision, so the run is void.
     const bool will_be_seen = speed > window.speed_bound * (1 + 1e-5);
     if (will_be_seen && speed < 2 * window.speed_bound &&
         away + speed * (window.end - time) <= window.speed_bound * window.duration())

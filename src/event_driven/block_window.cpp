@@ -13,37 +13,37 @@ namespace carrom {
 namespace {
 
 // Measured on one core, in nanoseconds.
-constexpr double cost_per_disc = 40; ///< sorting, copying and returning a disc, once a window
-constexpr double cost_per_copy = 40; ///< for each disc in a block or its halo
+constexpr double cost_per_disc = 40; ///< sorting, copying and returning a disc, once in each window
+constexpr double cost_per_copy = 40; ///< copying one disc of a block or of its halo
 constexpr double cost_per_event = 160;
-constexpr double cost_per_partner = 1.0; ///< for each disc that a prediction tries
-/// For each possible partner that the disc would meet in the window if no other one stopped it.
-/// Where discs are clustered, the costs above include this. In a dilute gas a long window makes the
-/// whole box possible partners.
+constexpr double cost_per_partner = 1.0; ///< testing one disc in a prediction
+/// Predicting a collision with one partner that the disc would meet in the window if no other disc
+/// stopped it. In a long window of a dilute gas this can be any disc of the box. Where discs are
+/// clustered, the costs above already include this cost.
 constexpr double cost_per_candidate = 6;
-constexpr double usual_speed = 0.3; ///< of a disc, over the bound of speeds
+constexpr double usual_speed = 0.3; ///< typical speed of a disc, relative to the speed bound
 /// Largest number of discs in a block with its halo. They need not all stay in the cache, because
 /// most of them are compared only once.
 constexpr double discs_in_cache = 24000;
 constexpr double cost_per_choice = 5000; ///< a fixed cost of each window
-/// For each thread and window: estimated time of waits at barriers and for messages
+/// Estimated time of a thread's waits for other threads and for messages, in each window
 constexpr double cost_per_window = 50000;
 constexpr int most_blocks_per_thread = 8;
-/// The work of the worst of many blocks differs by the share `unforeseen` from the estimate by its
-/// cells and discs. A run that is repeated with twice the halo takes `repeated_run` times as long.
+/// The slowest of many blocks takes longer than its cells and discs suggest, by the share
+/// `unforeseen`. A run that is repeated with twice the halo takes `repeated_run` times as long.
 constexpr double unforeseen = 0.1, repeated_run = 1.6;
-constexpr double densest_gas = 0.7; ///< packing up to which a gas's collision rate is estimated
-/// Ratio of diameter to reach below which two reaches of halo are enough: if discs fly far compared
-/// with their size, few chains of collisions lead further than that in a window.
+constexpr double densest_gas = 0.7; ///< largest packing for which a collision rate is estimated
+/// If the diameter is a smaller share of the reach, a halo of two reaches is enough: discs fly far
+/// compared with their size, so few chains of collisions lead beyond it in a window.
 constexpr double thin_gas = 0.2;
 
-// Repeating a block's run with twice the halo costs as much as two or three runs.
+// Repeating a block's run with twice the halo, and its consequences, cost two or three runs.
 constexpr double runs_to_repeat = 2.5, mostly_repeated = 0.5;
-constexpr double memory = 0.9; ///< weight of the windows before the last one
+constexpr double memory = 0.9; ///< weight of older windows in a running mean
 /// Weight of older windows in the mean of waits. It is larger, because a single wait is long and
 /// shows little about how often waits occur.
 constexpr double memory_of_waits = 0.98;
-constexpr int most_more = 2;   ///< in reaches of halo
+constexpr int most_more = 2;   ///< largest addition to the halo, in reaches
 constexpr int long_calm = 200; ///< windows without a repeated run before a smaller halo is tried
 constexpr double shorter = 0.7, longer = 1.03, least_hits = 0.1;
 
@@ -58,7 +58,7 @@ BlockWindow window_of(const BlockNeeds& needs, double duration) {
     return {needs.time, needs.time + duration, false, needs.speed_bound};
 }
 
-/// The discs of a run with its halo divided by its own discs.
+/// The number of discs of a block with its halo, divided by its number of own discs.
 double share_seen(const BlockNeeds& needs, const BlockChoice& choice) {
     if (needs.is_one_block) return 1;
     const double halo = choice.halo * choice.reach;
@@ -77,7 +77,7 @@ double share_waited(const BlockNeeds& needs, const BlockChoice& choice) {
     return 1 + (unforeseen + repeated_run * needs.rounds) / blocks_per_thread;
 }
 
-/// Chooses blocks of `own_discs` discs each. The density is that around most discs.
+/// Chooses blocks of `own_discs` discs each, for the density in which most discs are.
 void take_blocks_of(double own_discs, const BlockNeeds& needs, BlockChoice& choice) {
     const double area = own_discs * spacing_of(needs) * spacing_of(needs);
     choice.own_discs = own_discs;
@@ -85,7 +85,7 @@ void take_blocks_of(double own_discs, const BlockNeeds& needs, BlockChoice& choi
 }
 
 /// Chooses blocks so small that each thread gets at least one. Small blocks have more halo in
-/// total, and with few blocks threads wait longer for the last one.
+/// total; with few large blocks, threads wait longer for the slowest block.
 void share_out(const BlockNeeds& needs, BlockChoice& choice) {
     const double largest = choice.own_discs;
     BlockChoice best = choice;
@@ -121,7 +121,7 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
     return choice;
 }
 
-/// Bounces at walls per disc and time. As after a collision, each needs a prediction.
+/// Bounces at walls per disc and time. Each bounce needs a prediction, as a collision does.
 double bounce_rate(const BlockNeeds& needs) {
     const double speed = 2 / std::numbers::pi * usual_speed * needs.speed_bound;
     return (needs.goes_round_x ? 0 : speed / needs.box.x) +

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses how long a window of the event-driven method is and how large its blocks are. The choice
-// is pure arithmetic on numbers that all ranks know. It affects the run's time, not its bits.
+// Chooses the length of a window of the event-driven method and the size of its blocks. It uses
+// only numbers that all ranks know. The choice affects the run's time, not its bits.
 //
-// A long window shares the cost of sorting and copying discs among more collisions, but a disc then
-// has more possible partners. Large blocks have less halo for each disc, small blocks stay in the
+// In a long window more collisions share the cost of sorting and copying discs, but each disc has
+// more possible partners. Large blocks have less halo for each disc; small blocks stay in the
 // cache.
 #pragma once
 
@@ -21,17 +21,17 @@ struct BlockNeeds {
     double n_discs = 0;
     double speed_bound = 0;
     double collision_rate = 0; ///< collisions per disc and time
-    double time = 0;           ///< since the last sync
+    double time = 0;           ///< the window's start, since the last sync
     std::optional<int> halo;   ///< halo of a block's first run, in reaches, if a test has set it
-    bool is_one_block = false; ///< one block with all discs, whatever their number
+    bool is_one_block = false; ///< true if one block contains all discs, whatever their number
     int more_halo = 0;         ///< reaches that Caution adds to the halo
-    /// The halo does not end at the sides of the box, because it contains images of discs
+    /// Whether the halo continues beyond the sides of the box, because it contains images of discs
     bool goes_round_x = false, goes_round_y = false;
     /// Density around a disc relative to the mean of the box, averaged over discs
     double crowding = 1;
     double n_threads = 0; ///< threads of all ranks together; 0 if each rank has one thread
     double rounds = 0;    ///< recent mean number of rounds of repeated block runs in a window
-    double equivalent_radius = 0; ///< radius of equal discs that would have as many neighbours
+    double equivalent_radius = 0; ///< radius of equal discs with as many neighbours on average
 };
 
 struct BlockChoice {
@@ -42,21 +42,21 @@ struct BlockChoice {
     double own_discs = 1;  ///< number of own discs of a block, without its halo
 };
 
-/// The best window of at most `longest`, or of `wanted` if that is set.
+/// Returns the window of lowest cost up to the length `longest`, or of the length `wanted` if set.
 BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
                                 std::optional<double> wanted);
 
-/// Learns from windows whose block runs had to be repeated. One collision changes the next, and in
-/// a dense gas or a heap such a chain leads further in a window than the reach suggests. Then
+/// Learns from windows whose block runs had to be repeated. Each collision changes later ones, and
+/// in a dense gas or a heap such a chain leads further in a window than the reach suggests. Then
 /// blocks get a larger halo. If that is not enough, windows become shorter.
 class Caution {
 public:
     /// Statistics of a window; times are relative to its first block runs.
     struct Passed {
         double hits = 0;             ///< collisions per disc
-        double repeated = 0;         ///< block runs that were repeated, over the number of blocks
+        double repeated = 0;         ///< number of repeated block runs, over the number of blocks
         double waited = 0;           ///< time that ranks waited for the rank that repeats most
-        double price_of_reach = 0.1; ///< time of one more reach of halo
+        double price_of_reach = 0.1; ///< time that one more reach of halo would take
     };
     void learn(const Passed& window);
     int more_halo() const { return more_halo_; }
@@ -65,8 +65,8 @@ public:
 
 private:
     int more_halo_ = 0, n_calm_ = 0;
-    /// Means of the cost of repeated runs, and of the time that others waited for them. Older
-    /// windows count less.
+    /// Running means of the cost of repeated runs, and of the time that ranks waited for repeated
+    /// runs of others
     double lately_ = 0, waited_lately_ = 0;
     double most_hits_ = std::numeric_limits<double>::infinity();
 };

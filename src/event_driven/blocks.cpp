@@ -11,18 +11,18 @@ namespace carrom {
 namespace {
 
 /// Blocks are cut by work if the fullest block has this many times the mean number of discs. Below
-/// this ratio the cuts cost more than they save, and blocks of few discs differ as much by chance.
+/// this ratio the cuts cost more than they save, and small blocks differ as much by chance.
 constexpr double uneven = 1.5;
 /// If discs are clustered, there are at most this many times as many cells as in a homogeneous gas,
 /// because empty cells take memory too.
 constexpr double most_cells = 4;
 constexpr double most_units = 0x1p31; ///< sums of whole work units must fit 32 bits
 
-/// Below `least_crowding` the crowding counts as 1, because cells and windows chosen by the mean
-/// density cost as little there.
+/// A crowding below `least_crowding` counts as 1, because cells and windows that are chosen by the
+/// mean density cost hardly more then.
 constexpr double least_crowding = 2, most_crowding = 400;
 
-/// The index of the first own disc of a cell. The row after the last one is allowed.
+/// The number of own discs before a cell. The cell's row may be the one after the last.
 std::uint32_t discs_before(const CellGrid& grid, int column, int row) {
     return grid.run(column, row, row).begin;
 }
@@ -52,7 +52,7 @@ std::uint64_t discs_in(const CellGrid& grid, const CellBlock& cells) {
     return n;
 }
 
-/// Whether the block with most discs has far more of them than the mean.
+/// Whether the fullest block has far more discs than blocks have on average.
 bool are_uneven(const CellGrid& grid, const std::vector<CellBlock>& blocks, int n_threads) {
     std::uint64_t most = 0, all = 0;
     const auto n_blocks = static_cast<std::int64_t>(blocks.size());
@@ -68,7 +68,7 @@ bool are_uneven(const CellGrid& grid, const std::vector<CellBlock>& blocks, int 
            uneven * static_cast<double>(all);
 }
 
-/// The cells of the block that hold discs, or one cell.
+/// The smallest block of cells that contains all discs of the given block, or one cell if empty.
 CellBlock without_margins(const CellBlock& block, const CellSums& sums) {
     if (sums.in(block) > 0) return sums.occupied(block);
     return {block.first_column, block.first_column + 1, block.first_row, block.first_row + 1};
@@ -80,9 +80,9 @@ int cells_along(double length, double width) {
 
 } // namespace
 
-/// Own columns end where the domain ends, because the halo of a block is counted from its last
-/// column and the rank's halo from the domain. The last own row may extend beyond the domain, by
-/// less than a reach.
+/// Lays own columns so that they end where the domain ends, because a block's halo is counted from
+/// its last column and the rank's halo from the domain. The last own row may extend beyond the
+/// domain by less than a reach.
 template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(double reach) {
     const Extent box = extent();
     const Domains& domains = discs_.domains();
@@ -105,7 +105,7 @@ template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(do
     geometry.set_cell_width(std::max(least_width, (to - from) / n_whole));
     geometry.n_reach = static_cast<int>(std::ceil(reach / geometry.cell_width * (1 - 1e-9)));
     const int n_halo = laid_depth() * geometry.n_reach;
-    // The number of columns or rows of other domains, or of images.
+    // Number of columns or rows beyond the own cells, for discs of other domains or for images.
     const auto n_beside = [&](double beside, Axis of, bool is_cut) {
         if (discs_.periods().along(of) != 0) return n_halo;
         return is_cut ? std::min(n_halo, cells_along(beside, geometry.cell_width)) : 0;
@@ -162,7 +162,7 @@ template <class Dynamics> std::vector<CellBlock> EventDrivenEngine<Dynamics>::cu
     return cuts_.blocks();
 }
 
-/// A disc costs more where the density is high, because it collides more often there.
+/// Cuts blocks of equal work. A disc in a dense place counts more, because it collides more often.
 template <class Dynamics>
 std::vector<CellBlock> EventDrivenEngine<Dynamics>::cut_by_work(double n_pairs) {
     const CellGrid& grid = discs_.grid();
@@ -182,15 +182,15 @@ std::vector<CellBlock> EventDrivenEngine<Dynamics>::cut_by_work(double n_pairs) 
               [&grid](int column, int row) { return discs_before(grid, column, row); });
     cuts_.cut_by_work(own_cells_, needs, sums);
     std::vector<CellBlock> blocks = cuts_.blocks();
-    // A run lists all cells of its block. So blocks are cut down to the cells that hold discs. That
-    // is not done if rounding has put discs outside of the own cells, because sums over cells miss
-    // them.
+    // A run lists all cells of its block, so blocks are cut down to the cells that hold discs. This
+    // needs all discs in the own cells, because sums over cells miss a disc that rounding has put
+    // outside of them.
     if (work.per_disc > 0 && discs_in(grid, own_cells_) == discs_.n_own())
         for (CellBlock& block : blocks) block = without_margins(block, sums);
     return blocks;
 }
 
-/// Measures the crowding before the first window, from any cells that exist. **Collective.**
+/// Measures the crowding before the first window, by the present cells. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::learn_crowding() {
     const GridGeometry& geometry = discs_.grid().geometry();
     measure_crowding({0, geometry.n_columns, 0, geometry.n_rows});
@@ -214,7 +214,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::take_crowding(std::u
     mean_crowding_ = crowding > least_crowding ? std::min(crowding, most_crowding) : 1;
 }
 
-/// Each cell takes four bytes, and four more while blocks are cut.
+/// Extra bytes a disc where discs are clustered: 4 for each cell, and 4 more while blocks are cut.
 template <class Dynamics> double EventDrivenEngine<Dynamics>::bytes_for_crowds() const {
     // cells per disc in a homogeneous gas with the smallest cells
     constexpr double cells_per_disc = 2;

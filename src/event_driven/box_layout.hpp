@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole box cut into cells, for a run that has all discs of the box. Each disc has one slot.
-// Cells beyond periodic sides hold ghosts. A ghost is a slot for an image of a disc. It has a
-// flight of its own, so that the filter can test it, but its state is the disc's.
+// Cells beyond periodic sides hold ghosts. A ghost is a slot for an image of a disc. The filter
+// tests it by its own flight, but its state is the disc's state.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace carrom {
 
-/// The least width of cells in a box of this height and length. Three rows of cells that are about
-/// two spacings wide hold as many discs as a vector has lanes.
+/// The least width of cells in a box of this height and length. Cells are about two mean distances
+/// of discs wide, so that three rows of them hold as many discs as a vector has lanes.
 double least_cell_width(double reach, double height, double length, std::uint64_t n_discs);
 
 /// Cells of the box. Between periodic sides they fill it exactly.
@@ -34,8 +34,8 @@ BoxCells cells_of_box(const Extent& extent, const Periods& periods, double reach
 
 /// An image of a disc beyond a periodic side.
 struct Ghost {
-    std::uint32_t slot = 0, disc = 0; ///< the ghost's own slot and the disc's
-    std::uint32_t next = 0;           ///< number of the disc's next ghost, or none
+    std::uint32_t slot = 0, disc = 0; ///< slot of the ghost, and slot of its disc
+    std::uint32_t next = 0;           ///< index of the disc's next ghost, or `none`
     Image image;
     /// Displacement from the disc to the ghost, in units of the lanes
     float x_shift = 0, y_shift = 0;
@@ -46,29 +46,29 @@ public:
     static constexpr std::uint32_t none = 0xffffffff;
 
     /// Gives slots to all discs of the box and to their ghosts, by the column and row in which they
-    /// are at `time`. `discs` begins with the rank's own discs, which lie in the box. The copies of
-    /// other ranks' discs follow. There may be several copies of a disc, one for each image.
+    /// are at `time`. `discs` begins with the rank's own discs, which lie in the box. Then come
+    /// copies of other ranks' discs; a disc may have several copies, one for each image.
     void lay(std::span<const DiscState> discs, std::size_t n_own, const BoxCells& cells,
              const Periods& periods, double time);
 
-    /// The next three functions lay discs in levels, one after the other, each with its own cells.
-    /// `clear` drops the last layout.
+    /// The next three functions lay discs in levels, one level after the other, each with its own
+    /// cells. `clear` removes the last layout.
     void clear();
     /// Returns the indices of the own discs, and of one copy of each other disc.
     const std::vector<LocalIndex>& list_once(std::span<const DiscState> discs, std::size_t n_own);
-    /// Gives slots to the discs with the indices `listed`; those before `n_own` lie in the box.
-    /// Shifts of ghosts are in units of `lane_unit`, which all levels share. Returns where the
-    /// level begins in `cell_starts`.
+    /// Gives slots to the discs whose indices are `listed`; own discs (indices below `n_own`) lie
+    /// in the box. Shifts of ghosts are in units of `lane_unit`, which all levels share. Returns
+    /// the index in `cell_starts` at which the level begins.
     std::size_t add_level(std::span<const DiscState> discs, std::span<const LocalIndex> listed,
                           std::size_t n_own, const BoxCells& cells, const Periods& periods,
                           double time, double lane_unit);
-    /// For each slot of the last level, the place in its list.
+    /// For each slot of the last level, the index of its disc in `listed`.
     const std::vector<std::uint32_t>& order() const { return sorted_; }
 
     /// For each slot, the index of its disc in `discs`. A ghost has the index of its disc.
     const std::vector<LocalIndex>& indices() const { return indices_; }
-    /// Where the slots of each cell begin, cells beyond the sides included. Each column has one
-    /// more entry, where its last cell ends.
+    /// The first slot of each cell, including cells beyond the sides. Each column has one more
+    /// entry, the end of its last cell.
     const std::vector<std::uint32_t>& cell_starts() const { return starts_; }
     const std::vector<Ghost>& ghosts() const { return ghosts_; }
     /// The ghost in the slot, or null.
@@ -84,7 +84,7 @@ public:
 private:
     struct Line {
         int away = 0; ///< distance of the line of cells from the box, in box lengths
-        int home = 0; ///< the line of cells in the box that it repeats
+        int home = 0; ///< the line of cells in the box of which this line is an image
     };
 
     void sort(std::span<const DiscState> discs, std::span<const LocalIndex> listed,
@@ -98,12 +98,12 @@ private:
     std::vector<LocalIndex> indices_;
     std::vector<std::uint32_t> starts_;
     std::vector<Ghost> ghosts_;
-    /// For each slot its ghost, and its disc's first ghost
+    /// For each slot, the index of its ghost and of its disc's first ghost, or `none`
     std::vector<std::uint32_t> ghost_at_, first_ghost_;
     std::vector<LocalIndex> listed_;        ///< each disc of the box once
-    std::vector<std::uint32_t> sorted_;     ///< places in the list, in the order of the cells
+    std::vector<std::uint32_t> sorted_;     ///< indices in `listed_`, in the order of the cells
     std::vector<std::uint32_t> cell_of_;    ///< for each entry of `listed_`, its cell
-    std::vector<std::uint32_t> box_starts_; ///< for each cell, where it begins in `sorted_`
+    std::vector<std::uint32_t> box_starts_; ///< first index in `sorted_` for each cell of the box
     std::vector<LocalIndex> id_table_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detects collisions of a block that follow each other so closely that the run would never end.
+// Detects collisions in a block that follow each other so fast that the run would never end.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@ namespace carrom {
 
 class CascadeWatch {
 public:
-    /// Counts a collision. Returns true if there were too many of them in too short a time. That is
-    /// either a cascade within `interval` micro-steps, or a rush. In a rush time goes on, but so
-    /// slowly that no micro-step would end, for example if a disc is in a slot that is wider than
-    /// the disc only by a rounding error, or in a wedge whose surfaces slide and drive it. Fewer
-    /// collisions with walls than with discs are a rush, because walls do not give way.
+    /// Counts a collision. Returns true if there were too many collisions in too short a time. This
+    /// is either a cascade within `interval` micro-steps, or a rush. In a rush time advances, but
+    /// so slowly that no micro-step would end, as for a disc in a slot that is hardly wider than
+    /// it, or in a wedge whose sliding surfaces drive it. The limit is lower for walls, because
+    /// walls do not give way.
     bool add(double time, double interval, std::uint64_t n_discs, bool is_wall) {
         if (time > cascade_begin_ + interval) {
             cascade_begin_ = time;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pass over cells that fills a table of sums. Only the files that include it are compiled with
-// OpenMP, so files that only need cuts are not.
+// Fills a table of sums over cells. This is in a file of its own because only files that include it
+// need OpenMP; files that only use cuts do not.
 #pragma once
 
 #include "event_driven/block_cuts.hpp"
@@ -12,7 +12,7 @@ void CellSums::fill(const CellBlock& cells, int n_threads, const CellWork& work,
                     const DiscsBefore& discs_before) {
     cells_ = cells;
     sums_.resize(place(cells.end_column, cells.end_row) + 1);
-    // Height of the stretch of rows that a thread sums through all columns
+    // Number of rows that a thread sums through all columns
     constexpr int rows_each = 64;
     const int n_stretches = cells.n_rows() / rows_each + 1;
 #pragma omp parallel num_threads(n_threads)

@@ -20,7 +20,7 @@ namespace carrom {
 
 namespace {
 
-/// Fewer discs cost more in threads than they save.
+/// Below this number of collided discs, threads cost more time than they save.
 constexpr std::size_t least_hits_for_threads = 4096;
 
 /// **Collective.**
@@ -54,9 +54,9 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
     runaway_speed_ = runaway_speed(scene, travel_speed_);
     this->distribute();
     learn_crowding();
-    if (mean_crowding_ > 1) this->redistribute_now(); // the first cells hold too many discs each
+    if (mean_crowding_ > 1) this->redistribute_now(); // the first cells hold too many discs
     // Overlaps are always an error at the start of a scene. In a restart they are an error only if
-    // the dynamics parts overlapping discs, because in other dynamics the run may have made them.
+    // the dynamics separates overlapping discs; other dynamics may itself have made the overlaps.
     if (dynamics_.has_pairs() && (dynamics_.parts_overlaps() || n_micro_done_ == 0))
         refuse_overlaps(population(), discs_.grid(), time_,
                         touching_of(dynamics_, time_, discs_.periods()), communicator_,
@@ -74,10 +74,10 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::advance_to(std::int6
     n_micro_done_ = target;
 }
 
-/// Finds all events of the next window. If windows pass stops, it may end after `target`. Then a
-/// part of it ends at `target`, and others where the next stops are expected. No state changes
-/// before `commit_until`, so that threads and ranks have a whole window to work on, and need not
-/// wait for each other at stops.
+/// Finds all events of the next window. If windows may contain stops, it may end after `target`.
+/// Then one part of it ends at `target`, and others where the next stops are expected. No state
+/// changes before `commit_until`, so that threads and ranks can work on a whole window without
+/// waiting for each other at stops.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(std::int64_t target) {
     this->set_departed_aside();
     migrate();
@@ -108,8 +108,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_until_exact() {
     }
 }
 
-/// Gives discs their states at `target`, or at the window's end if that comes first. If no part of
-/// the window ends at `target`, the window ends at the part's end before it.
+/// Gives discs their states at `target`, or at the window's end if that is earlier. If no part of
+/// the window ends at `target`, the window is cut at the last part's end before `target`.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::commit_until(double target) {
     const std::size_t first = n_parts_done_;
     const auto later = std::ranges::upper_bound(stops_, target);
@@ -165,9 +165,9 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
         blocks_.front().is_marked = 1;
         return;
     }
-    // If discs are clustered, there are many cells. Results of the last window are freed first.
-    // Otherwise memory would also hold them and the sums for the cuts, 30 bytes a disc more at the
-    // peak.
+    // If discs are clustered, there are many cells. So the results of the last window are freed
+    // first. Otherwise the peak of memory would be 30 bytes a disc higher, because it would contain
+    // these results and the sums for the cuts.
     if (mean_crowding_ > 1)
         for (Block& block : blocks_) block.outcome = {};
     discs_.sort_cells(lay_cells(reach()), time_);
@@ -219,7 +219,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     std::vector<std::size_t> marked;
     for (std::size_t k = 0; k < blocks_.size(); ++k)
         if (blocks_[k].is_marked != 0) marked.push_back(k);
-    // A block with much work begins early, so that the other threads wait less for it.
+    // Blocks with most work begin first, so that the other threads wait less for them at the end.
     if (const std::vector<double>& work = cuts_.work(); work.size() == blocks_.size())
         std::ranges::stable_sort(marked, std::greater<>(), [&](std::size_t k) { return work[k]; });
     std::vector<BlockWork> round;
@@ -245,7 +245,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
         const BlockOutcome& outcome = blocks_[marked[i]].outcome;
         round[i].n_carried = outcome.n_carried;
         round[i].n_seen = outcome.n_seen;
-        // repeated runs may be anywhere in the next window, so they do not count for the balance
+        // repeated runs are left out of the balance: they may be elsewhere in the next window
         if (round[i].is_repeated) continue;
         this->rank_work_.of_pairs += work_unit * outcome.n_carried;
         this->rank_work_.of_discs += static_cast<std::uint64_t>(
@@ -309,7 +309,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::take_speed(double la
     is_largest_known_ = false;
 }
 
-/// The window ends at the present stop. Its validation has not found the largest speed there.
+/// Ends the window at the present stop, for which its validation has found no largest speed.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::leave_window() {
     end_window();
     take_speed(std::sqrt(this->squared_speed_of_own(time_)));

@@ -5,12 +5,12 @@
 //   redistribute  discs go to the ranks that own them, the halo comes from the neighbours, and
 //                 all are sorted into cells; the own cells are cut into blocks
 //   run           a free thread runs each block with its halo, without the other blocks
-//   validate      the histories of those discs of each block's ring that can have met an own disc
-//                 are compared with those that their owners found; own discs may have met no disc
-//                 from beyond the ring, and none may have got too far; otherwise the blocks that
-//                 differ run again with twice the halo, in the end with the whole box (rollback)
-//   commit        the discs that were hit get their new states; at each stop inside the window,
-//                 those that were hit before it
+//   validate      for discs of each block's ring that can have met an own disc, histories are
+//                 compared with those that the discs' owners found; no own disc may have met a
+//                 disc from beyond the ring or have got too far; blocks that fail run again with
+//                 twice the halo, and finally with the whole box (rollback)
+//   commit        discs that have collided get their new states; at a stop inside the window, only
+//                 the discs that have collided before it
 //
 // A rollback costs only the repeated run, because no state changes before the commit. A single run
 // of the whole box, without halo and histories, serves few discs on one rank and thread.
@@ -41,7 +41,7 @@ struct BlockTuning {
     double speed_allowance = 1.08;
     bool is_validated = true; ///< whether windows are validated; false gives wrong results
     bool parts_sizes = false; ///< whether each octave of radii has a level of cells of its own
-    /// Unset: true for several threads, and if discs are clustered
+    /// If unset, blocks are cut by work for several threads and for clustered discs
     std::optional<bool> cuts_by_work;
     bool notes_work = false; ///< whether work is recorded for `take_work()`
 };
@@ -52,8 +52,8 @@ inline constexpr std::uint64_t work_unit = 100;
 
 /// The work of one block run, for studies of how threads share a window.
 struct BlockWork {
-    std::uint64_t n_carried = 0; ///< collisions carried out, those of the halo included
-    std::uint64_t n_seen = 0;    ///< number of discs, those of the halo included
+    std::uint64_t n_carried = 0; ///< collisions carried out, including those of halo discs
+    std::uint64_t n_seen = 0;    ///< number of discs, including halo discs
     bool is_repeated = false;    ///< the block had run before in this window
 };
 
@@ -89,8 +89,8 @@ private:
     struct Block {
         CellBlock cells;
         int halo = 0;               ///< depth of the halo, in reaches
-        std::uint8_t is_marked = 0; ///< the block has to run
-        bool has_run = false;       ///< the block has already run in this window
+        std::uint8_t is_marked = 0; ///< whether the block has to run
+        bool has_run = false;       ///< whether the block has already run in this window
         bool saw_all = false;       ///< whether the block's last run covered the whole box
         BlockOutcome outcome;
     };
@@ -100,7 +100,7 @@ private:
     struct FoundInWindow {
         std::uint64_t ranks_too_fast = 0; ///< ranks with a disc that was faster than the bound
         std::uint64_t marked_blocks = 0;  ///< blocks that have to run again
-        std::uint64_t cascades = 0;       ///< blocks whose run was given up in a cascade
+        std::uint64_t cascades = 0;       ///< blocks whose run ended in a collision cascade
         std::uint64_t ranks_to_stop = 0;  ///< ranks that were requested to stop
         std::uint64_t ranks_jammed = 0;   ///< ranks whose growing discs have become too fast
         std::uint64_t events = 0;
@@ -164,9 +164,9 @@ private:
     void fail_on_cascade() const;
     [[noreturn]] void refuse_runaway(double speed) const;
 
-    /// At least two, because the last own row of cells may end beyond the domain.
+    /// Depth in reaches; at least two, because the last own row of cells may end beyond the domain.
     int first_halo_depth() const { return std::max(2, choice_.halo); }
-    /// The depth of the halo for which there are cells. Halos can grow up to it without new cells.
+    /// The depth up to which cells exist. Halos can become as deep without new cells.
     int laid_depth() const { return std::max(common_depth_, 2 * choice_.halo); }
     double reach() const { return block_reach(window_, contact_distance(), dynamics_.box()); }
     /// The largest distance between centres in a contact in this window.
@@ -176,30 +176,30 @@ private:
 
     BlockTuning block_tuning_;
     std::vector<SizeLevel> levels_;
-    double jumped_ = 0; ///< motion of the frame since the last migration, across the cuts
+    double jumped_ = 0; ///< shift of the frame since the last migration, across the strips' cuts
     WindowPolicy policy_;
     double first_packing_ = 0;
-    double runaway_speed_ = 0; ///< see runaway.hpp
+    double runaway_speed_ = 0; ///< speed that ends the run (runaway.hpp)
     JamWatch jam_watch_;       ///< detects a jam of growing discs
     /// Speed of growing discs at the start of this interval or of the engine
     double first_speed_ = 0;
-    /// The density in the cell of an own disc relative to the mean of the box, summed over own
-    /// discs. In a homogeneous gas it is below 1 for each disc, because discs exclude each other.
+    /// The density in the cell of each own disc relative to the mean of the box, summed over own
+    /// discs. In a homogeneous gas each term is below 1, because discs exclude each other.
     double crowding_ = 0;
     double mean_crowding_ = 1; ///< mean over all discs, or 1 if it is near 1; equal on all ranks
     /// Results of the validation of the last window, and the largest speed at its end.
     JointReduction<FoundInWindow> reduced_;
-    /// Whole numbers, because their sums do not depend on the order
+    /// Unit of the crowding as a whole number, whose sums do not depend on the order
     static constexpr double crowding_unit = 1024;
-    bool is_largest_known_ = false; ///< `reduced_` holds the largest speed of all ranks
+    bool is_largest_known_ = false; ///< whether `reduced_` holds the largest speed of all ranks
     RollbackCounts counts_;         ///< counts of blocks are those of this rank
 
     BlockChoice choice_;
     BlockWindow window_;
     std::vector<double> stops_;    ///< times inside the window at which its parts end
-    std::size_t n_parts_done_ = 0; ///< parts that discs have carried out
+    std::size_t n_parts_done_ = 0; ///< number of parts that have been committed
     BlockNotes notes_;             ///< what blocks record of this window
-    bool is_alone_ = false; ///< a single run of the whole box is used, for few discs on one rank
+    bool is_alone_ = false; ///< whether a single run covers the whole box: one rank, few discs
     BoxCells box_cells_;    ///< cells for runs of the whole box
     int common_depth_ = 0;  ///< depth in reaches that the halos of all ranks have
     int halo_depth_ = 0;    ///< depth in reaches that this rank's halo has

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Predicted collisions of one block run in their total order: time, generation, id of P, wall
-// before pair, id of Q.
+// Predicted collisions of one block run, sorted by their total order: time, generation, id of P,
+// wall before pair, id of Q.
 //
-// Predictions are not removed when they become void. A prediction stores the versions of its discs,
-// which grow with each collision. If they differ from the present ones, the prediction is skipped.
-// Discs without room can collide millions of times in a window, so void predictions are removed
-// whenever there are twice as many events as valid ones at the last sweep.
+// A prediction is not removed when it becomes void. It stores the versions of its discs, which grow
+// with each collision, and is skipped if they differ from the present versions. Discs without room
+// can collide millions of times in a window, so void predictions are removed whenever the queue has
+// twice as many events as were valid at the last removal.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 
 namespace carrom {
 
-/// Values of `q` for what may stand in the place of a second disc: first the fixed bodies by their
-/// numbers, then the walls across x and across y.
+/// Values of `q` for events without a second disc: first the numbers of fixed bodies, then the
+/// walls across x and across y.
 inline constexpr std::uint32_t first_fixed_body = 0x80000000, x_wall = 0xfffffffe,
                                y_wall = 0xffffffff;
 inline bool is_wall(std::uint32_t partner) { return partner >= first_fixed_body; }
@@ -34,7 +34,7 @@ struct Event {
     std::uint32_t p = 0, q = x_wall; ///< slots; p has the lower id
     /// Displacement of q's image, in box lengths, from the position in its slot
     std::int16_t image_x = 0, image_y = 0;
-    std::uint32_t versions = 0; ///< sum of the versions of the predicting states
+    std::uint32_t versions = 0; ///< sum of both discs' versions when the event was predicted
     std::uint32_t next = 0;     ///< the next entry of its bucket in the queue
 
     bool has_image() const { return image_x != 0 || image_y != 0; }
@@ -68,18 +68,18 @@ private:
     std::span<const DiscState> discs_;
 };
 
-/// The reverse order, for heaps that have the first event on top.
+/// The reverse order, for heaps that keep the first event on top.
 inline auto after(const EventOrder& before) {
     return [&before](const Event& a, const Event& b) { return before(b, a); };
 }
 
-/// Buckets of equal length in time, with about one event each, so nearly all of a queue's work is
-/// to append to a list. The bucket that is being emptied is a heap, so even thousands of events at
-/// one time cost only the logarithm of their number each.
+/// Buckets of equal length in time with about one event each, so that most operations only append
+/// to a list. The bucket that is being emptied is a heap. So even if thousands of events have the
+/// same time, each costs only the logarithm of their number.
 class EventQueue {
 public:
-    /// Removes all events. New ones lie in [begin, end], with about `n_expected` of them in the
-    /// queue at any time.
+    /// Removes all events. New events will lie in [begin, end], and about `n_expected` of them will
+    /// be in the queue at any time.
     void restart(double begin, double end, std::size_t n_expected) {
         pool_.clear();
         first_free_ = none;
@@ -107,8 +107,8 @@ public:
         heads_[bucket] = entry;
     }
 
-    /// Removes and returns the first event for which `is_current(event)` holds, and removes those
-    /// before it. Returns false if there is none that is not later than `last`.
+    /// Removes and returns the first event for which `is_current(event)` holds, and removes all
+    /// events before it. Returns false if no such event has a time up to `last`.
     template <class IsCurrent>
     bool pop(Event& first, double last, const EventOrder& before, const IsCurrent& is_current) {
         if (has_outgrown()) [[unlikely]]
@@ -142,8 +142,8 @@ private:
         return now_.size() > most_now_ || (first_free_ == none && pool_.size() > most_waiting_);
     }
 
-    /// Removes all events that are not current. It checks each event, but at least as many events
-    /// were pushed since the last sweep, so it does not change the order of the total cost.
+    /// Removes all events that are not current. It checks each event, but since the last sweep at
+    /// least as many events were added, so a sweep adds only a constant cost per event.
     template <class IsCurrent> void sweep(const EventOrder& before, const IsCurrent& is_current) {
         std::erase_if(now_, [&is_current](const Event& event) { return !is_current(event); });
         std::make_heap(now_.begin(), now_.end(), after(before));
@@ -181,12 +181,12 @@ private:
     }
 
     double begin_ = 0, buckets_per_time_ = 1;
-    std::size_t current_ = 0; ///< number of the bucket in `now_`
+    std::size_t current_ = 0; ///< number of the bucket that `now_` holds
     std::vector<Event> now_;
     std::vector<std::uint32_t> heads_;
     std::vector<Event> pool_;
     std::uint32_t first_free_ = none;
-    /// The sizes of `now_` and `pool_` beyond which a sweep is due.
+    /// The sizes of `now_` and `pool_` above which a sweep is due.
     std::size_t most_now_ = least_to_sweep, most_waiting_ = least_to_sweep;
 };
 

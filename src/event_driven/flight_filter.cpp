@@ -34,10 +34,10 @@ struct SpreadFlight {
           touching(hold(Lanes(), touching_squared)) {}
 };
 
-/// Returns which of the discs at x and y with velocities vx and vy might touch the flight in the
-/// rest of the window. These are the discs that are near already, and those that approach, do not
-/// pass by and arrive in time. Each condition is a number that is negative if the condition holds,
-/// so that one comparison decides on all of them. `touching` is a squared distance.
+/// Returns which of the discs at x and y with velocities vx and vy might touch the flight before
+/// the window ends: discs that are near already, and discs that approach, do not pass by and arrive
+/// in time. Each condition is a number that is negative if the condition holds, so one comparison
+/// tests all of them. `touching` is a squared distance.
 HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy, Vector touching,
                                        const SpreadFlight& p) {
     const Lanes d;
@@ -55,8 +55,8 @@ HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy,
     return hn::Lt(misses, hn::Zero(d));
 }
 
-/// The squared distance at which the flight touches the discs of a vector of lanes: one for all, or
-/// the sum of radii.
+/// The squared distance at which the flight touches each disc of a vector of lanes. It is the same
+/// for discs of one size; otherwise it comes from the sum of radii.
 HWY_INLINE Vector touching_of(const FlightLanes&, std::uint32_t, const SpreadFlight& p) {
     return vector_of(Lanes(), p.touching);
 }
@@ -67,7 +67,7 @@ HWY_INLINE Vector touching_of(const SizedLanes& lanes, std::uint32_t slot, const
 }
 
 #if HWY_TARGET == HWY_AVX2
-/// For each mask of eight lanes, the numbers of its set lanes in ascending order, one in each byte.
+/// For each mask of eight lanes, the numbers of its set lanes in ascending order, one per byte.
 constexpr auto set_lanes = [] {
     std::array<std::uint64_t, 256> lanes{};
     for (std::size_t mask = 0; mask < lanes.size(); ++mask) {
@@ -96,28 +96,28 @@ HWY_INLINE SlotVector spread_slot(std::uint32_t slot) {
     return hn::Set(Slots(), static_cast<std::int32_t>(slot));
 }
 
-/// Appends the slots that are kept to `next`, and returns the new end. It writes a whole vector, so
-/// the memory beyond the end is overwritten. (The instruction that compresses into memory takes a
-/// hundred cycles on some processors.)
+/// Appends the kept slots to `next`, and returns the new end. It writes a whole vector, so memory
+/// beyond the new end is overwritten. (The instruction that writes only kept lanes takes a hundred
+/// cycles on some processors.)
 HWY_INLINE std::uint32_t* append(SlotVector slots, hn::Mask<Slots> kept, std::uint32_t* next) {
     const hn::RebindToUnsigned<Lanes> d;
     hn::StoreU(hn::BitCast(d, compress(slots, kept)), d, next);
     return next + hn::CountTrue(Slots(), kept);
 }
 
-/// The places of a vector of flights at the time `now`.
+/// The positions of a vector of flights at the time `now`.
 HWY_INLINE Vector places(const float* at_start, const float* velocity, Vector now) {
     return hn::MulAdd(hn::LoadU(Lanes(), velocity), now, hn::LoadU(Lanes(), at_start));
 }
 
-/// In place of the time 0, where a place needs no product.
+/// Replaces the time 0, for which a position needs no product.
 struct AtStart {};
 HWY_INLINE Vector places(const float* at_start, const float* /*velocity*/, AtStart) {
     return hn::LoadU(Lanes(), at_start);
 }
 
-/// Tells which of a vector of slots, the first of which is `slot`, might touch the flight. `now` is
-/// a vector, or AtStart.
+/// Returns which slots of a vector, from `slot` on, might touch the flight. `now` is a vector or
+/// AtStart.
 template <class SomeLanes, class Time>
 HWY_INLINE hn::Mask<Slots> touching_slots(const SomeLanes& lanes, std::uint32_t slot,
                                           const SpreadFlight& p, Time now) {
@@ -182,8 +182,8 @@ PartnerCounts filter_two_runs(const SomeLanes& all_lanes, std::span<const SlotRa
     return {static_cast<std::size_t>(p_next - p_out), static_cast<std::size_t>(q_next - q_out)};
 }
 
-/// The `touching` of the flight in a slot. For discs of several sizes it is the radius and the
-/// margin.
+/// The `touching` of the flight in a slot: for one size the given value, for several sizes its
+/// radius plus the margin.
 HWY_INLINE float touching_in(const FlightLanes&, std::uint32_t, float touching_squared) {
     return touching_squared;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rejects most partners in a block run, many lanes at a time: it finds the flights in some runs of
-// slots that might touch a given flight before the window ends. It may keep pairs that never touch,
-// but loses none that do.
+// Rejects most partners in a block run, many lanes at a time. It finds the flights, in some runs of
+// slots, that might touch a given flight before the window ends. It may keep pairs that never
+// touch, but it never loses a pair that does.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace carrom {
 
-/// A disc in flight. Its position at the time `now` is in cells, its velocity in cells per window,
-/// and times go from 0 to 1 in a window.
+/// A disc in flight: its position at the time `now` in cells, and its velocity in cells per window.
+/// Times go from 0 to 1 in a window.
 struct Flight {
     float x = 0, y = 0, vx = 0, vy = 0;
     float now = 0;
@@ -30,8 +30,8 @@ struct PartnerCounts {
     std::size_t p = 0, q = 0;
 };
 
-/// Cells of a block, column by column. Slots of cell (c, r) begin at starts[c * column_length
-/// + r] and end where the next cell's begin. Each column has one more entry than rows.
+/// Cells of a block, column by column. Slots of cell (c, r) begin at starts[c * column_length + r]
+/// and end where the next cell begins. Each column has one more entry than rows.
 struct CellTable {
     const std::uint32_t* starts = nullptr;
     std::size_t column_length = 0;
@@ -40,7 +40,7 @@ struct CellTable {
     int n_reach_columns = 1, n_reach_rows = 1;
 };
 
-/// The rows first .. end - 1 of a column of cells.
+/// The rows `first` to `end` - 1 of a column of cells.
 struct CellRows {
     int first = 0, end = 0;
 };
@@ -49,26 +49,26 @@ struct CellRows {
 /// extrapolated to the window's start, and must be readable up to `filter_padding` entries beyond
 /// the last slot.
 ///
-/// `touching` says how near two discs must come. For discs of one size it is the square of that
-/// distance. For discs of several sizes the distance is the sum of the two radii and a margin, and
-/// `touching` is the radius of the flight plus the margin; for a column it is the margin alone.
+/// `touching` is the distance that counts as a touch. For discs of one size it is the square of
+/// this distance. For several sizes this distance is the sum of the two radii and a margin, and
+/// `touching` is the flight's radius plus the margin; in `column` it is the margin alone.
 template <class SomeLanes> struct FlightFilters {
-    /// Writes the slots of `runs`, other than the flight's own, that might come so near to
-    /// `flight`, and returns their number. `out` must have room for all slots of the runs and
+    /// Writes the slots of `runs` whose flights might touch `flight`, except the slot of `flight`
+    /// itself, and returns their number. `out` must have room for all slots of the runs and
     /// `filter_padding` more.
     std::size_t (*one)(const SomeLanes& lanes, std::span<const SlotRange> runs,
                        const Flight& flight, float touching, std::uint32_t* out);
 
-    /// Filters for two flights with the same `now` at once, into a list for each. The slots of the
-    /// two flights are in neither list.
+    /// Filters for two flights with the same `now` in one pass, into one list for each. Neither
+    /// list has the slots of these two flights.
     PartnerCounts (*two)(const SomeLanes& lanes, std::span<const SlotRange> runs, const Flight& p,
                          const Flight& q, float p_touching, float q_touching, std::uint32_t* p_out,
                          std::uint32_t* q_out);
 
-    /// Finds every pair that might touch in the window, between a disc in `rows` of a column and a
-    /// later disc. The later disc follows in the same column, or is in a column to the right,
-    /// within the table's reach. Appends the second discs of the pairs to `partners`, whose size
-    /// never shrinks. Appends to `ends`, for each disc of the rows, where its partners end in that
+    /// Finds each pair of a disc in `rows` of a column and a later disc that might touch in the
+    /// window. The later disc follows in the same column, or is in a column to the right,
+    /// within the table's reach. Appends the later discs to `partners`, whose size never
+    /// shrinks. Appends to `ends`, for each disc of the rows, the end of its partners in that
     /// list.
     void (*column)(const SomeLanes& lanes, const CellTable& cells, int column, CellRows rows,
                    float touching, std::vector<std::uint32_t>& partners,

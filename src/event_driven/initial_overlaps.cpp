@@ -25,11 +25,11 @@ struct Overlap {
     }
 };
 
-/// The first overlapping pairs of a rank, or of all ranks. The number also counts pairs that are
-/// not listed.
+/// The first overlapping pairs of a rank, or of all ranks. `number` also counts pairs that are not
+/// listed.
 struct FirstOverlaps {
     std::uint64_t number = 0;
-    std::array<Overlap, n_named> pairs; ///< ascending, empty places last
+    std::array<Overlap, n_named> pairs; ///< in ascending order; empty entries come last
 
     void add(const Overlap& overlap) {
         ++number;

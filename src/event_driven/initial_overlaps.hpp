@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ends a run that would start from overlapping discs. The event-driven method cannot, because there
-// is no time at which their collision could have happened.
+// Ends a run that would start from overlapping discs. The event-driven method cannot handle them,
+// because there is no time at which such discs collided.
 #pragma once
 
 #include <string>

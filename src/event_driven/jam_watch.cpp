@@ -8,17 +8,17 @@ namespace carrom {
 
 namespace {
 
-/// Radii grow by at most this share of the first ones in a bin.
+/// In one bin radii grow by at most this share of the initial radii.
 constexpr double most_in_bin = 0x1p-10;
-/// The first bin after a start is shorter than others by this factor. Each next one is twice as
-/// long as the one before, because before the first bin no frequency is known.
+/// The first bin after a start is shorter than the others by this factor, because no collision rate
+/// is known before it. Each next bin is twice as long, up to the usual width.
 constexpr double first_bin = 0x1p-10;
-/// Numbers of collisions in a bin that take about a second: in all, and for each disc. Beyond them
-/// a run gains less packing than it costs time.
+/// Minimal number of collisions in a bin for a jam: in all, plus a number for each disc. They take
+/// about a second. With so many collisions a run gains too little packing for its time.
 constexpr double enough_of_all = 0x1p20, enough_per_disc = 0x1p6;
 constexpr double ever_more = 3, rarer = 4;
-/// A run is ended only if its last step is beyond the remaining time to the jam by this factor,
-/// because a dense fluid gains room when it freezes.
+/// By the first rule a run ends only if its remaining time exceeds the time to the jam by this
+/// factor, because a dense fluid gains room when it freezes.
 constexpr double sure = 2;
 
 } // namespace
@@ -35,7 +35,7 @@ void JamWatch::start(double time, double sync) {
     begin_bin(time, first_bin * width_);
 }
 
-/// Bins end at multiples of their width. Syncs are multiples, too.
+/// Starts a bin. Bins end at multiples of their width; syncs are at such multiples, too.
 void JamWatch::begin_bin(double begin, double width) {
     if (begin >= setting_.interval) {
         sync_ += setting_.interval;
@@ -58,7 +58,7 @@ bool JamWatch::finish_bin() {
     const Past now{sync_ + end_, n_collisions_ / width};
     if (n_collisions_ > enough_)
         if (const Past* const then = when_rarer(now.rate)) {
-            const double room = now.time - then->time; // how long it lasts
+            const double room = now.time - then->time; // time for which the discs still have room
             if (setting_.end - now.time > sure * room) sign_ = Sign::no_room_left;
         }
     if (width == width_) remember(now);
@@ -68,13 +68,13 @@ bool JamWatch::finish_bin() {
 }
 
 void JamWatch::remember(const Past& bin) {
-    // Keeps only records that differ by this factor, so that the list stays short
+    // Keeps only records whose rates differ by this factor, so that the list stays short
     constexpr double step = 1.05;
     while (!pasts_.empty() && pasts_.back().rate >= bin.rate) pasts_.pop_back();
     if (pasts_.empty() || bin.rate > step * pasts_.back().rate) pasts_.push_back(bin);
 }
 
-/// The latest bin in which collisions were rarer by this factor, or null.
+/// The latest bin whose collision rate was lower by the factor `rarer`, or null.
 const JamWatch::Past* JamWatch::when_rarer(double rate) const {
     const auto after = std::ranges::upper_bound(pasts_, rate / rarer, {}, &Past::rate);
     return after == pasts_.begin() ? nullptr : &*(after - 1);

@@ -20,7 +20,7 @@ bool do_surfaces_slide(const Effects& effects) {
     return false;
 }
 
-/// The root of the ratio of the heaviest mass to the lightest.
+/// Ratio of speeds of the lightest and the heaviest disc that have equal energies.
 double speeds_of_equal_energy(const Effects& effects) {
     if (effects.species.empty()) return 1;
     const auto [lightest, heaviest] = std::ranges::minmax(effects.species, {}, &Species::mass);

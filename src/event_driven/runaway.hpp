@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The end of runs whose discs become faster without end. Surfaces that rub and slide do work on
-// discs. Where nothing takes the energy again, discs between two surfaces collide ever more often:
-// a disc in a wedge has no last collision of a step.
+// Ends runs whose discs become faster without limit. Surfaces that rub and slide do work on discs.
+// If nothing takes up this energy, discs between two surfaces collide ever more often, and a step
+// with a disc in a wedge may never end.
 //
-// A disc ends the run if it is 2^17 times as fast as all that the scene began with: its fastest
-// disc, surfaces, walls, fields and bodies that fall. Discs of equal energies may differ in speed
-// by the root of the ratio of their masses. Only scenes with surfaces that slide have this limit.
+// A run ends if a disc is 2^17 times as fast as anything at the start: discs, surfaces, walls,
+// fields, falling bodies. The square root of the largest ratio of masses is a further factor,
+// because discs of equal energies differ by it. Only scenes with sliding surfaces have a limit.
 #pragma once
 
 #include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
-/// The speed per micro-step beyond which a run ends; infinite for scenes without surfaces that
-/// slide. `fastest` is the speed of the fastest disc of all at the start, per micro-step.
+/// The speed per micro-step above which a run ends; infinite for scenes without sliding surfaces.
+/// `fastest` is the largest speed of all discs at the start, per micro-step.
 double runaway_speed(const SceneParameters& scene, double fastest);
 
 } // namespace carrom

@@ -8,16 +8,16 @@ namespace carrom {
 
 namespace {
 
-// Costs in instructions, with vectors of eight.
+// Costs in instructions, for vectors of eight lanes.
 constexpr double cost_per_level = 80;  ///< cost for each level that a search visits
-constexpr double cost_per_column = 50; ///< cost for each column of cells in that level
+constexpr double cost_per_column = 50; ///< cost for each column of cells that the search covers
 constexpr double cost_per_partner = 4; ///< cost for each disc in these cells
 constexpr int n_octaves = 48;          ///< octaves of radii that can have levels of their own
 
-/// Typical flight of a disc in a window, in mean distances of discs
+/// Typical length of a disc's flight in a window, in mean distances between discs
 constexpr double flight = 0.5;
 
-/// The mean cost of a search. Discs are weighted by how often they collide.
+/// The mean cost of a search. Levels are weighted by their collision rates.
 double cost_of(std::span<const SizeLevel> levels, double area, double travel) {
     double cost = 0, n_all = 0;
     for (const SizeLevel& own : levels) n_all += own.n_discs * own.largest_radius;

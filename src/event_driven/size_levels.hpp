@@ -2,9 +2,9 @@
 // Levels of cells for discs of several sizes: each disc is in the level of its size, whose cells
 // are as wide as its discs need (Ogarko and Luding, Comput. Phys. Commun. 183, 931 (2012)).
 //
-// If all cells were those of the largest disc, a small disc would try all others within that disc's
-// reach. Each level costs each search a few instructions, so discs that differ little share a
-// level. Where levels begin has no effect on the bits.
+// With one grid for the largest discs, a small disc would test all discs within the reach of the
+// largest one. But each level costs each search a few instructions, so discs of similar size share
+// a level. The limits between levels do not affect the bits.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,13 @@ struct SizeLevel {
     double sum_of_radii = 0;
 };
 
-/// Returns levels from the smallest discs to the largest, or one if there are no species. `area` is
-/// the area of the box. If `is_each_octave`, no two octaves of radii share a level.
+/// Returns levels from the smallest discs to the largest, or one level if there are no species.
+/// `area` is the box's area. If `is_each_octave`, each octave of radii has its own level.
 std::vector<SizeLevel> choose_size_levels(std::span<const Species> species, double radius,
                                           double n_discs, double area, bool is_each_octave = false);
 
-/// The radius of equal discs that would have as many possible partners as these discs have on
-/// average. The length of windows is chosen for it.
+/// The radius of equal discs that would have as many possible partners on average as these discs.
+/// The length of windows is chosen for this radius.
 double equivalent_radius(std::span<const SizeLevel> levels);
 
 /// The level of a disc of this radius.

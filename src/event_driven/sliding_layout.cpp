@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The layout of a box whose rows of images slide along x. A ghost lies elsewhere in its cell than
-// its disc in the disc's cell, because the shift is not a whole number of cells. So each ghost is
-// sorted by its own place.
+// The layout of a box whose rows of images slide along x. The shift is not a whole number of cells,
+// so a ghost and its disc are at different places in their cells. So each ghost is sorted into
+// cells by its own position.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -18,7 +18,7 @@ struct Entry {
     Image image;
 };
 
-/// Lists the places of one disc in the layout: its own, and those of its ghosts.
+/// Lists the entries of one disc in the layout: the disc itself and its ghosts.
 class Places {
 public:
     Places(const BoxCells& cells, const Periods& periods, double time)
@@ -85,7 +85,7 @@ void BoxLayout::lay_sliding(std::span<const DiscState> discs, std::size_t n_own,
         if (entry.cell + 1 < starts_.size()) ++starts_[entry.cell + 1];
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     indices_.resize(entries.size());
-    std::vector<std::uint32_t> slot_of(listed_.size()); // slots of the discs themselves
+    std::vector<std::uint32_t> slot_of(listed_.size()); // for each listed disc, its own slot
     for (std::uint32_t slot = 0; slot < entries.size(); ++slot) {
         indices_[slot] = listed_[entries[slot].listed];
         if (entries[slot].image == Image{}) slot_of[entries[slot].listed] = slot;

@@ -55,8 +55,8 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
     return Verdict::repeat;
 }
 
-/// Marks the blocks whose own discs have met a disc from beyond the ring. If the run had the whole
-/// box, its result is right, and the other disc was faster than the bound.
+/// Marks the blocks whose own discs have met a disc from beyond the ring. If such a run had the
+/// whole box, its result is right, but the other disc was faster than the bound.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::check_partners() {
     for (Block& block : blocks_) {
         BlockOutcome& outcome = block.outcome;
@@ -69,7 +69,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::check_partners() {
 }
 
 /// Compares a ring disc's history with the history that its owner has found. If they differ, marks
-/// the block of the ring and the block of the owner. Discs that other ranks own are appended to
+/// the block with this ring and the block that owns the disc. Discs of other ranks are appended to
 /// `foreign`.
 template <class Dynamics>
 void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& foreign) {
@@ -108,20 +108,20 @@ void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& for
 template <class Dynamics>
 bool EventDrivenEngine<Dynamics>::could_meet(const Block& block, const DiscState& disc,
                                              SpeedClass fastest) const {
-    if (Dynamics::has_moving_images) return true; // each row of images gives the disc another speed
+    if (Dynamics::has_moving_images) return true; // a disc's speed differs between rows of images
     if (fastest == largest_speed_class) return true;
     const double at_begin = std::sqrt(dynamics_.squared_speed(disc)),
                  later = window_.speed_bound * std::sqrt(fastest / speed_classes_to_bound);
     const double speeds = block.outcome.largest_speed + std::max(at_begin, later);
-    // block_reach is for two discs that both have the bound as their speed, so the bound is half of
-    // the sum.
+    // block_reach assumes two discs that both move at the bound, so the bound is half the sum of
+    // the two speeds.
     const double farthest = block_reach(window_.with_bound(speeds / 2), contact_distance(),
                                         dynamics_.box());
     return distance_from_own(block, disc) <= farthest;
 }
 
-/// The least distance at the window's begin between a disc and the places where own discs of the
-/// block can have been.
+/// The least distance at the window's start between a disc and the positions that own discs of the
+/// block can have had.
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::distance_from_own(const Block& block,
                                                       const DiscState& disc) const {
@@ -157,8 +157,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::mark_owner(LocalInde
         .store(1, std::memory_order_relaxed);
 }
 
-/// Records what it costs to run the marked blocks again. All threads of all ranks wait for the rank
-/// that has most of them. **Collective.**
+/// Records the cost of running the marked blocks again. All threads of all ranks wait for the rank
+/// with the most marked blocks. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::record_rollback() {
     // time of a run with twice the halo divided by the time of a first run
     constexpr double deeper = 1.6;
@@ -179,7 +179,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::record_rollback() {
     policy_.note(rollback);
 }
 
-/// By what share the blocks of this rank would have more discs if their halo were one reach deeper.
+/// The share of additional discs in this rank's blocks if their halo were one reach deeper.
 template <class Dynamics> double EventDrivenEngine<Dynamics>::price_of_reach() const {
     const GridGeometry& geometry = discs_.grid().geometry();
     const CellBlock frame{0, geometry.n_columns, 0, geometry.n_rows};
@@ -192,11 +192,11 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::price_of_reach() c
     return now > 0 ? deeper / now - 1 : 0;
 }
 
-/// Doubles the halo of all marked blocks that do not have the whole box yet. (A block may have it
-/// now without having had it in its last run, because the rank's halo has grown for other blocks.)
-/// Ranks whose halo must become deeper extend it as far as there are cells for it. Returns true if
-/// that is not enough, so that the halos of all ranks become deeper and all blocks have to run
-/// again. **Collective.**
+/// Doubles the halo of each marked block that does not cover the whole box yet. (A block may cover
+/// the box now although its last run did not, because the rank's halo has become deeper for other
+/// blocks.) Ranks extend their halo as far as there are cells for it. Returns true if this is not
+/// enough, so that the halos of all ranks become deeper and all blocks have to run again.
+/// **Collective.**
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
     int deepest = halo_depth_;
     struct Counts {
@@ -234,8 +234,8 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
     return false;
 }
 
-/// The depth of the rank's halo that the block's halo needs, in reaches. A block needs none on a
-/// side where a wall ends the box.
+/// The depth in reaches that the rank's halo needs for this block. A side where a wall ends the box
+/// needs no halo.
 template <class Dynamics>
 int EventDrivenEngine<Dynamics>::halo_depth_for(const Block& block) const {
     const int n_reach = discs_.grid().geometry().n_reach;
@@ -278,8 +278,8 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all(const Block
     return has_all_cells && rank_has_all;
 }
 
-/// Along a periodic axis a block needs no further images if its cells go once around the box from
-/// its own cells, and one reach further at both ends.
+/// Whether the block needs no further images along periodic axes: its cells then reach once around
+/// the box from its own cells, and one reach further at both ends.
 template <class Dynamics>
 bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
     const GridGeometry& geometry = discs_.grid().geometry();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans the next window of the event-driven engine: its length, its speed bound, and whether a
-// single run of the whole box is used. Also tests whether growing discs jam in it.
+// Plans the next window of the event-driven engine: its length, its speed bound, and whether one
+// run covers the whole box. Also tests whether growing discs jam in the window.
 #include <algorithm>
 #include <cmath>
 
@@ -15,12 +15,12 @@ namespace carrom {
 
 namespace {
 
-/// A jam is reported if the largest speed grows by more than this factor between two syncs. From a
-/// dilute gas to the densest liquid growing discs become some 30 times as fast.
+/// A jam is reported if the largest speed rises by more than this factor between two syncs. From a
+/// dilute gas to the densest liquid growing discs become only some 30 times as fast.
 constexpr double jam_heating = 64;
-/// Up to this many discs a single block without a halo is fastest on one thread.
+/// Up to this number of discs, one block without a halo is fastest on one thread.
 constexpr double most_discs_alone = 30000;
-/// Stops in a window. Windows for more of them would save little, and parts take memory.
+/// Largest number of stops in a window. More stops save little time, and each part takes memory.
 constexpr std::int64_t most_stops = 256;
 
 } // namespace
@@ -44,7 +44,7 @@ template <class Dynamics> BlockWindow EventDrivenEngine<Dynamics>::choose(double
     return window;
 }
 
-/// Windows are chosen alike on all ranks, so all throw.
+/// Throws on every rank without communication, because all ranks plan the same windows.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_runaway(double speed) const {
     throw CollectiveError(fmt::format(
         "soon after step {:.9g} a disc flies {:.2g} a step, over 100,000 times as fast as anything "
@@ -55,8 +55,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_runaway(doubl
         speed * static_cast<double>(this->micro_steps_)));
 }
 
-/// The largest speed at the window's start. After the first window its value for all ranks is known
-/// from the validation. **Collective.**
+/// The largest speed at the window's start. After the first window the validation has already found
+/// it for all ranks. **Collective.**
 template <class Dynamics> double EventDrivenEngine<Dynamics>::largest_of_all() const {
     return is_largest_known_ ? reduced_.largest : communicator_.max(largest_speed_);
 }
@@ -70,7 +70,7 @@ double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
     return policy_.speed_bound(largest_of_all(), travel_speed_, gained);
 }
 
-/// Sets the first speed of the interval for growing discs; it stays 0 for others. **Collective.**
+/// Stores the first speed of the interval if discs grow; otherwise it stays 0. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::record_first_speed() {
     const double per_micro_step = dynamics_.size_at(1) - dynamics_.size_at(0);
     if (!(per_micro_step > 0) || (time_ > 0 && n_windows_ > 0)) return;
@@ -87,8 +87,8 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::are_jammed() const {
     });
 }
 
-/// Ends the run. The message contains the step up to which the run is valid, and not the event that
-/// revealed the jam, because that depends on windows and threads. **Collective.**
+/// Ends the run. The message names the step up to which the run is valid. It does not name the
+/// event that revealed the jam, because that event depends on windows and threads. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
     const double safe = jam_watch_.safe_until();
     const double size = dynamics_.size_at(safe - static_cast<double>(this->last_sync()));
@@ -100,7 +100,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
                  static_cast<std::int64_t>(safe));
 }
 
-/// Whether one run of the whole box serves.
+/// Whether a single run can cover the whole box.
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone() const {
     const auto n = static_cast<double>(discs_.n_total());
     const bool is_few = tuning_.threads == 1 ||
@@ -109,7 +109,7 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone() cons
            !block_tuning_.block_side && !block_tuning_.cuts_by_work;
 }
 
-/// The arguments of the choice of the next window, except those that are learned from windows.
+/// The arguments of the choice of the next window, except the numbers learned from past windows.
 template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(double speed_bound) {
     BlockNeeds needs;
     needs.box = dynamics_.box();
@@ -122,7 +122,7 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     needs.is_one_block = is_alone_;
     needs.goes_round_x = discs_.periods().x != 0;
     needs.goes_round_y = discs_.periods().y != 0;
-    // a run of the whole box does not measure the crowding
+    // a run of the whole box measures no crowding
     needs.crowding = is_alone_ ? 1 : mean_crowding_;
     return needs;
 }

@@ -8,11 +8,11 @@ namespace carrom {
 
 namespace {
 
-/// The expected collision rate falls at most to this share of its last value in a window. After
-/// random insertion discs first meet half as often as a little later, and windows for that rate
-/// would be too long.
+/// From one window to the next, the expected collision rate falls at most to this share. After
+/// random insertion discs first collide half as often as a little later, and windows planned for
+/// the lower rate would be too long.
 constexpr double rate_kept = 0.9;
-/// The speed bound falls at most to this share of its last value in a window.
+/// From one window to the next, the speed bound falls at most to this share.
 constexpr double bound_kept = 0.99;
 constexpr double weight_of_last = 0.1; ///< weight of the last window in the running mean of rounds
 
@@ -35,7 +35,7 @@ PlannedWindow WindowPolicy::plan(BlockNeeds needs, double collision_rate, double
     if (!setting_.duration) longest = std::min(longest, caution_.most_hits() / rate_to_expect_);
     PlannedWindow window;
     window.choice = choose_block_window(needs, longest, setting_.duration);
-    // Windows up to the target have equal lengths; the last one ends exactly there.
+    // The remaining windows up to the target have equal lengths; the last one ends exactly there.
     const double n_windows = std::ceil(left / window.choice.duration * (1 - 1e-9));
     window.end = n_windows > 1 ? needs.time + left / n_windows : target;
     if (!(window.end > needs.time) || window.end > target)
@@ -43,7 +43,7 @@ PlannedWindow WindowPolicy::plan(BlockNeeds needs, double collision_rate, double
     return window;
 }
 
-/// Adds to `needs` the numbers that were learned from all windows up to the last one.
+/// Updates the running means with the last window, and copies the learned numbers to `needs`.
 void WindowPolicy::learn(double collision_rate, BlockNeeds& needs) {
     collision_rate_ = collision_rate;
     rate_to_expect_ = std::max(collision_rate, rate_kept * rate_to_expect_);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses each window of a run from the windows before it: how often discs collide, how many block
-// runs had to be repeated, and how fast discs have become. It is arithmetic on numbers that all
-// ranks know. It affects the run's time, not its bits.
+// Chooses each window of a run from the windows before it: how often discs collided, how many block
+// runs had to be repeated, and how fast discs have become. It uses only numbers that all ranks
+// know. It affects the run's time, not its bits.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// What does not change during a run; equal on all ranks.
+/// Settings that do not change during a run; equal on all ranks.
 struct WindowSetting {
     std::optional<double> duration; ///< duration of a window in micro-steps; unset: the fastest one
     std::optional<int> halo;        ///< halo of a block's first run, in reaches; unset: chosen
@@ -20,7 +20,7 @@ struct WindowSetting {
     double n_threads = 0; ///< threads of all ranks together; 0 if each rank has one thread
 };
 
-/// Times are in micro-steps since the last sync.
+/// A window and its end. Times are in micro-steps since the last sync.
 struct PlannedWindow {
     BlockChoice choice;
     double end = 0;
@@ -28,25 +28,25 @@ struct PlannedWindow {
 
 /// A round of block runs that had to be repeated; equal on all ranks.
 struct Rollback {
-    double repeated = 0;         ///< block runs, as a share of all blocks
-    double waited = 0;           ///< time of the rank that repeats most, relative to its first runs
-    double price_of_reach = 0.1; ///< time of one more reach of halo, relative to the first runs
+    double repeated = 0;         ///< number of repeated block runs, as a share of all blocks
+    double waited = 0;           ///< extra time of the slowest rank, relative to its first runs
+    double price_of_reach = 0.1; ///< time for one more reach of halo, relative to the first runs
 };
 
 class WindowPolicy {
 public:
     explicit WindowPolicy(const WindowSetting& setting) : setting_(setting) {}
 
-    /// The time at which a window that begins at `time` will probably end, at most `target`.
+    /// An estimate, at most `target`, of the end of a window that begins at `time`.
     double soon(double time, double target) const;
-    /// The bound of speeds for a window that begins with the `largest` speed, if the bound of the
-    /// window before it was `last_bound`, and if its discs may gain `gained` in a frame that falls.
-    /// The bound falls only slowly, because the largest speed fluctuates.
+    /// The speed bound of the next window. `largest` is the largest speed at its start,
+    /// `last_bound` the last window's bound, and `gained` the speed that discs may gain in a frame
+    /// that falls. The bound falls only slowly, because the largest speed fluctuates.
     double speed_bound(double largest, double last_bound, double gained) const;
 
-    /// Plans the next window, from `needs.time` to `target` or before. `collision_rate` is that of
-    /// the window before, or a guess for the first one, and `longest` the longest window that the
-    /// box permits. `needs` contains everything except what is learned from windows.
+    /// Plans the next window, from `needs.time` to `target` or earlier. `collision_rate` is the
+    /// rate in the window before, or a guess for the first window. `longest` is the longest window
+    /// that the box permits. `needs` contains all numbers that are not learned from windows.
     PlannedWindow plan(BlockNeeds needs, double collision_rate, double longest, double target);
 
     /// Call it for each round of repeated runs in the planned window.
@@ -68,13 +68,13 @@ private:
     double last_duration_ = 1;    ///< duration of the last window
     double rounds_lately_ = 0.05; ///< running mean of the number of rounds
     double n_rounds_ = 0;         ///< number of repeated rounds in the last window
-    Rollback last_;               ///< sums over the repeated rounds; the price is the last round's
+    Rollback last_;               ///< sums over the repeated rounds; the price is of the last one
     Caution caution_;
 };
 
-/// The window for a higher speed bound. It is shorter, so that its reach stays the same. If all
-/// discs were at rest until a wall reached them, it becomes as long as a flight over a diameter
-/// takes.
+/// The window for a higher speed bound. It is shorter, so that its reach stays the same. If the old
+/// bound was 0, because all discs were at rest until a wall reached them, it lasts at most as long
+/// as a flight over a diameter.
 BlockWindow shortened(BlockWindow window, double speed_bound, double diameter);
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Operations by which several threads of a device change one number. On the CPU the serial device
-// has one thread, so plain operations are enough there.
+// Operations with which several threads of a device change the same number. The serial device on
+// the CPU has one thread, so it uses plain operations.
 #pragma once
 
 #include <bit>
@@ -10,8 +10,8 @@
 
 namespace carrom {
 
-/// Adds to `number` and returns its old value. The order of threads is random, so only places in
-/// lists may depend on it.
+/// Adds to `number` and returns its old value. The order of threads is random, so results may only
+/// be used as places in lists.
 CARROM_DEVICE inline std::uint32_t fetch_add(std::uint32_t& number, std::uint32_t more) {
 #ifdef __CUDA_ARCH__
     return atomicAdd(&number, more);
@@ -31,7 +31,7 @@ CARROM_DEVICE inline void add(std::uint64_t& number, std::uint64_t more) {
 #endif
 }
 
-/// Sets `flag` to 1. Returns true if it was 0 before, which only one of several threads gets.
+/// Sets `flag` to 1. Returns true if it was 0; of several threads only one gets true.
 CARROM_DEVICE inline bool raise(std::uint32_t& flag) {
 #ifdef __CUDA_ARCH__
     return atomicExch(&flag, 1u) == 0;
@@ -42,13 +42,13 @@ CARROM_DEVICE inline bool raise(std::uint32_t& flag) {
 #endif
 }
 
-/// The maximum of numbers that are not negative, whose bits have the same order as the numbers.
+/// The maximum of nonnegative numbers; their bits, read as integers, have the same order.
 class Largest {
 public:
     CARROM_DEVICE void offer(double number) {
         const auto bits = std::bit_cast<std::uint64_t>(number);
 #ifdef __CUDA_ARCH__
-        // Most values are too small, and a read costs less than an atomic operation.
+        // Most values are not larger, and a read costs less than an atomic operation.
         if (*static_cast<volatile std::uint64_t*>(&bits_) < bits)
             atomicMax(reinterpret_cast<unsigned long long*>(&bits_),
                       static_cast<unsigned long long>(bits));

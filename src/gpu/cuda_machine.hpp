@@ -25,8 +25,8 @@ inline void check_cuda(cudaError_t error, const char* what) {
 namespace cuda {
 
 constexpr unsigned threads_of_block = 128, threads_of_rounds = 512;
-/// The largest number of blocks of a kernel whose number of threads is in the device's memory:
-/// enough for any GPU.
+/// The largest number of blocks of a kernel that reads its number of threads from the device's
+/// memory. It is enough for any GPU.
 constexpr unsigned most_blocks = 2048;
 
 template <class Kernel> __global__ void for_each(std::uint32_t n, const Kernel kernel) {
@@ -50,8 +50,8 @@ template <class Rounds> __global__ void match(const Rounds rounds, int round) {
          i += gridDim.x * blockDim.x)
         rounds.match(round, i);
 }
-/// Runs all rounds in one block. Its threads wait for each other, so that all of them read the same
-/// size of a round and the results of the part before.
+/// Runs all remaining rounds in one block. Its threads wait for each other, so that all of them
+/// read the same round size and the results of the previous part.
 template <class Rounds> __global__ void finish_rounds(const Rounds rounds, int round) {
     for (;; ++round) {
         __syncthreads();
@@ -89,7 +89,7 @@ struct CudaMachine {
     static void copy_to_device(void* to, const void* from, std::size_t n_bytes) {
         check_cuda(cudaMemcpy(to, from, n_bytes, cudaMemcpyHostToDevice), "copy");
     }
-    /// Waits for all kernels, and throws the error if one has failed.
+    /// Waits for all kernels, throws if one has failed, and copies from the device.
     static void copy_to_host(void* to, const void* from, std::size_t n_bytes) {
         check_cuda(cudaGetLastError(), "kernel");
         check_cuda(cudaMemcpy(to, from, n_bytes, cudaMemcpyDeviceToHost), "copy");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells of a device's discs: a box cut into rectangles, row after row. Discs of a cell follow
-// each other in memory, in any order, because no decision depends on it.
+// The cells of a device's discs: a box cut into rectangles, row after row. The discs of a cell are
+// stored together in any order, because no decision depends on this order.
 //
-// Along a periodic axis cells repeat themselves. So a disc beyond the seam is the disc of a cell in
-// the box, in an image that is displaced by whole boxes, and there are no copies of discs.
+// Along a periodic axis the row of cells repeats. So a disc beyond the seam is found in a cell of
+// the box, as an image displaced by whole boxes; no disc is stored twice.
 #pragma once
 
 #include <algorithm>
@@ -43,14 +43,14 @@ struct CellsAlong {
     CARROM_DEVICE int last(int cell) const {
         return is_periodic ? cell + around : std::min(cell + around, n - 1);
     }
-    /// The number of the box in which this cell of the repeated row is.
+    /// The number of the box, 0 for the box itself, that contains this cell of the repeated row.
     CARROM_DEVICE int box_of(int cell) const {
         if (!is_periodic || (cell >= 0 && cell < n)) return 0;
         return cell >= 0 ? cell / n : -((n - 1 - cell) / n);
     }
 };
 
-/// `begins[c]` is the first slot of cell c; the last entry is the end.
+/// The cells of both axes. `begins[c]` is the first slot of cell c; the last entry is the end.
 struct DeviceCells {
     CellsAlong x, y;
     std::uint32_t* begins = nullptr;
@@ -61,8 +61,8 @@ struct DeviceCells {
     CARROM_DEVICE std::uint32_t of(double at_x, double at_y) const {
         return static_cast<std::uint32_t>(y.of(at_y) * x.n + x.of(at_x));
     }
-    /// Calls visit(slot, image) for each disc in the cells around `cell`, itself included. The disc
-    /// is displaced by `image` in addition to the image in its state.
+    /// Calls visit(slot, image) for each disc in `cell` and in the cells around it. The disc is
+    /// displaced by `image` in addition to the image in its state.
     template <class Visit>
     CARROM_DEVICE void for_each_near(std::uint32_t cell, const Visit& visit) const {
         const int column = static_cast<int>(cell) % x.n, row = static_cast<int>(cell) / x.n;
@@ -81,8 +81,8 @@ struct DeviceCells {
     }
 };
 
-/// Cells for n discs in the box whose partners are within `reach`. If `reach` permits, a cell has
-/// 0.4 discs on average, because small cells save tests of pairs.
+/// Cells for n discs whose partners are within `reach`. A cell is at least `reach` wide. If this
+/// permits, it has 0.4 discs on average, because small cells save tests of pairs.
 inline DeviceCells cells_for(const Box& box, const Periods& periods, double reach,
                              std::uint64_t n_discs) {
     constexpr double discs_in_cell = 0.4;

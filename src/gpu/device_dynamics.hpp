@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The dynamics that a device runs: a scene's motion (dynamics/motion.hpp) between walls that only
-// reverse a velocity. It is plain data, and has the functions that StepWalls and the sums of stress
-// call.
+// The dynamics on a device: a scene's motion (dynamics/motion.hpp) between walls that only
+// reverse a velocity. It is plain data with the functions that StepWalls and the sums of stress
+// need.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,8 @@ public:
 
     CARROM_DEVICE static constexpr bool has_fixed_bodies() { return false; }
     CARROM_DEVICE const MirrorSides<Arithmetic>& sides() const { return sides_; }
-    /// Returns false only if the disc meets no wall in a micro-step that ends by `time`. A disc
-    /// that ends a micro-step within the band of a wall at rest meets it, too.
+    /// Whether the disc may meet a wall in a micro-step that ends by `time`; false is certain. A
+    /// disc that ends a micro-step within the band of a wall at rest also meets the wall.
     CARROM_DEVICE bool may_meet_wall(const DiscState& disc, double time) const {
         if (!this->space_.has_sides()) return false;
         const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stepper of a machine. It owns the memory, and runs the kernels in their order.
+// The stepper of a machine. It owns the device's memory and runs the kernels in order.
 //
-// Memory is 64 bytes a disc for its state, 64 for a second copy while discs are sorted, 8 for cells
-// and places in them, and some 10 for the table of cells. Between two sorts the second copy is
-// free, and holds the next events and lists.
+// Bytes per disc: 64 for its state, 64 for a second copy while discs are sorted, 8 for its cell and
+// its place in the cell, and some 10 for the table of cells. Between two sorts the second copy is
+// free, and its memory holds the next events and lists.
 #pragma once
 
 #include <cstdint>
@@ -91,8 +91,8 @@ private:
         return counters;
     }
 
-    /// Starts the kernels and does not wait, because the host does not need the results of the last
-    /// window yet.
+    /// Starts the kernels without waiting for them, because the host does not need the last
+    /// window's results yet.
     void begin(const DeviceWindow& window, bool forgets_speed) {
         world_.window = window.window;
         world_.squared_window_speed = window.speed * window.speed;
@@ -101,7 +101,7 @@ private:
         Machine::for_each(1, Begin<D>{world_, forgets_speed});
     }
 
-    /// Sorts the discs into cells for this reach.
+    /// Sorts the discs into cells for the given reach.
     void sort(double reach) {
         Periods periods;
         if constexpr (D::is_periodic) periods = world_.dynamics.periods();
@@ -109,7 +109,7 @@ private:
         const std::uint32_t n_cells = world_.cells.n_cells();
         if (n_cells + 1 > most_cells_) {
             most_cells_ = n_cells + 1 + n_cells / 8;
-            begins_.reset(); // freed first, so that old and new memory do not exist at once
+            begins_.reset(); // freed first, so that memory never holds old and new cells together
             begins_ = allocate<std::uint32_t>(most_cells_);
         }
         world_.cells.begins = as<std::uint32_t>(begins_);
@@ -122,7 +122,7 @@ private:
         point_at_discs();
     }
 
-    /// Uses the free copy of the states as memory for the arrays of a window.
+    /// Uses the memory of the free copy of states for the arrays of a window.
     void point_at_discs() {
         world_.discs = as<DiscState>(discs_);
         auto* next = static_cast<std::byte*>(spare_.get());

@@ -23,7 +23,7 @@ struct SumPieces {
     std::uint64_t piece[4] = {};
 };
 
-/// Adds to the pieces of a sum of the same scale what ExactSum::add would add.
+/// Adds terms to the pieces of a sum, with the same result as ExactSum::add for the same scale.
 class DeviceSum {
 public:
     CARROM_DEVICE DeviceSum(SumPieces& pieces, double scale) : pieces_(pieces), scale_(scale) {}
@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    /// A large number is whole, so it can be cut into pieces exactly.
+    /// Adds a large number. It is whole, so it can be cut into pieces exactly.
     CARROM_DEVICE void add_large(double scaled) {
         double rest = std::fabs(scaled);
         for (int k = 3; k >= 0; --k) {
@@ -64,7 +64,7 @@ struct StressPieces {
     SumPieces xx, xy, yy, energy;
 };
 
-/// Has the members of StressSums that kernels use.
+/// Replaces StressSums in kernels: it has the members that kernels use.
 struct DeviceStress {
     CARROM_DEVICE DeviceStress(StressPieces& pieces, double scale)
         : xx(pieces.xx, scale), xy(pieces.xy, scale), yy(pieces.yy, scale),
@@ -73,7 +73,7 @@ struct DeviceStress {
     DeviceSum xx, xy, yy, energy;
 };
 
-/// Replaces StressTerms: each term is added at once.
+/// Replaces StressTerms: each term is added immediately.
 struct DeviceTerms {
     CARROM_DEVICE void add(double ix, double iy, const Separation& to, DeviceStress& sums) const {
         add_impulse(sums, ix, iy, to);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whether this program can use a GPU, and how to make engines on it.
 //
-// The module is the same for every build. A build with -DCARROM_CUDA=ON links the kernels, which
-// `program_gpu` then has; tests put the serial device in their place.
+// This header is the same for every build. A build with -DCARROM_CUDA=ON links the kernels, and
+// `program_gpu` then returns them; tests replace them by the serial device.
 #pragma once
 
 #include <cstdint>
@@ -21,17 +21,17 @@ namespace carrom {
 std::unique_ptr<Engine> make_gpu_engine(const SceneParameters& scene, StoredState state,
                                         const Communicator& communicator, const Tuning& tuning);
 
-/// A function that makes engines, and the device for them.
+/// A device, and a function that makes engines on it.
 struct Gpu {
     const DeviceKind* device = nullptr;
     std::unique_ptr<Engine> (*make_engine)(const DeviceKind& device, const SceneParameters& scene,
                                            StoredState state, const Communicator& communicator,
                                            const Tuning& tuning) = nullptr;
 };
-/// The GPUs of this program; it has none if it was built without CUDA.
+/// The GPU of this program; null pointers if it was built without CUDA.
 Gpu& program_gpu();
 
-/// See Gpu. Compiled only together with kernels.
+/// The function in Gpu. It is compiled only together with kernels.
 std::unique_ptr<Engine> make_gpu_engine_on(const DeviceKind& device, const SceneParameters& scene,
                                            StoredState state, const Communicator& communicator,
                                            const Tuning& tuning);

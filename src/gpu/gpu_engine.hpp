@@ -3,9 +3,9 @@
 // copied to the host only if something reads them: measurements, checkpoints, lines of discs,
 // totals.
 //
-// The host chooses windows and reads a handful of numbers after each. A device does not divide
-// micro-steps. If discs are fast, a window is one micro-step, and its cells are wide enough for all
-// of it.
+// The host chooses windows and reads a few numbers after each window. Micro-steps are not divided
+// on a device. If discs are fast, a window is one micro-step, and its cells are wide enough for the
+// flights in it.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ private:
     std::unique_ptr<Stepper> stepper_;
     /// `discs_` without const, because const functions copy the device's discs into it
     StripDiscs* on_host_ = nullptr;
-    PhaseClock* copying_time_ = nullptr; ///< `phases_` without const, for the same reason
+    PhaseClock* copying_time_ = nullptr; ///< `phases_` without const, for copies in const functions
     mutable bool is_host_current_ = true;
     double window_speed_ = 0; ///< speed that the window's reach allows for
     /// Bound of speeds in the next window, relative to the largest speed

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels of the time-stepped method on a device, in the order in which a window runs them.
-// Each is a functor whose call with i is the work of one thread. A machine (serial_machine.hpp,
-// cuda_machine.hpp) calls it for all i, so that the same code runs on a GPU and, in tests, on the
-// CPU.
+// Each kernel is a functor, and its call with i is the work of thread i. A machine
+// (serial_machine.hpp, cuda_machine.hpp) calls it for all i, so that the same code runs on a GPU
+// and, in tests, on the CPU.
 //
 //   PutIntoCells, Scatter    bring discs into the order of their cells
 //   Predict                  finds the first candidate of each disc
@@ -10,11 +10,11 @@
 // and for each micro-step
 //
 //   Collect      lists the discs whose first candidate is in this micro-step
-//   Match        takes pairs whose discs are each other's first candidate; all others wait
-//   Waiting      rounds: discs whose partner has been taken search again, then match again
-//   Carry        carries out what has been taken
+//   Match        takes pairs whose discs are each other's first candidate; other discs wait
+//   Waiting      rounds: if its partner has been taken, a disc searches again; then Match again
+//   Carry        carries out the events that have been taken
 //   Mark         lists the discs whose first candidate may have changed
-//   Renew        finds it
+//   Renew        finds the first candidate of these discs
 //   EndMicroStep empties the lists, and cuts the window short if discs are too fast for it
 //
 // At a sync Restart advances all discs. Threads of a kernel are independent, except in the rounds,
@@ -37,8 +37,8 @@ template <class D> struct Begin {
     }
 };
 
-/// Computes for slot i the cell and the place among the discs of the cell. In a periodic box the
-/// disc gets the image that is in the box at the window's anchor.
+/// Computes the cell of slot i's disc and the disc's place in it. In a periodic box the disc
+/// becomes the image that is in the box at the window's anchor.
 template <class D> struct PutIntoCells {
     World<D> world;
     std::uint32_t *counts, *place_in_cell;
@@ -60,7 +60,7 @@ template <class D> struct PutIntoCells {
     }
 };
 
-/// Copies the disc of slot i to the first place of its cell plus its place in the cell.
+/// Copies the disc of slot i to its place in its cell.
 template <class D> struct Scatter {
     PutIntoCells<D> put;
     DiscState* sorted;
@@ -99,7 +99,7 @@ template <class D> struct Collect {
     }
 };
 
-/// Whether disc k and its partner are each other's first candidate in micro-step m.
+/// Whether disc k and its partner, or a wall, are each other's first candidate in micro-step m.
 template <class D> CARROM_DEVICE bool is_mutual(const World<D>& world, LocalIndex k, int m) {
     const LocalIndex partner = world.partner[k];
     return partner == wall_index ||
@@ -120,7 +120,7 @@ template <class D> struct Match {
     }
 
 private:
-    /// Candidates of this micro-step, each counted at the disc with the lower id.
+    /// Counts disc k's candidates in this micro-step; a pair counts at the disc with the lower id.
     CARROM_DEVICE std::uint64_t count(LocalIndex k) const {
         const DiscState disc = world.discs[k];
         std::uint64_t n = world.dynamics.may_meet_wall(disc, m + 1) &&
@@ -133,7 +133,7 @@ private:
 };
 
 /// Rounds over the discs that wait. In each round the first of all remaining candidates is mutual,
-/// so the rounds end.
+/// so at least one disc is taken and the rounds end.
 template <class D> struct Waiting {
     World<D> world;
     int m;
@@ -220,8 +220,8 @@ private:
     }
 };
 
-/// For a disc with a new state, lists the nearby discs whose first candidate was with it, or that
-/// now meet it before their first candidate.
+/// Lists the nearby discs of a disc with a new state: those whose first candidate was with this
+/// disc, and those that now meet it before their first candidate.
 template <class D> struct Mark {
     World<D> world;
     int m;
@@ -244,7 +244,7 @@ private:
         if (!world.dynamics.has_pairs()) return false;
         NextEvent event = world.meeting(p, other, image, m + 1);
         if (event.partner == no_partner) return false;
-        event.partner = k; // the event from the other disc's side
+        event.partner = k; // the same event as stored at the other disc
         event.image_x = static_cast<std::int16_t>(-image.x);
         event.image_y = static_cast<std::int16_t>(-image.y);
         return world.is_before(other, event, world.event(other));
@@ -276,7 +276,7 @@ template <class D> struct EndMicroStep {
     }
 };
 
-/// The sync: advances all discs to its time, from which times count afterwards.
+/// The sync: advances all discs to its time, which is the new origin of times.
 template <class D> struct Restart {
     World<D> world;
     double time; ///< time of the sync

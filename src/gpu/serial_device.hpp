@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A device that is the CPU, for tests (serial_machine.hpp).
+// The CPU as a device, for tests (serial_machine.hpp).
 #pragma once
 
 #include "gpu/stepper.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A device that is the CPU, for tests: its memory is the host's, and it calls kernels for one index
-// after the other. Its results equal those of a GPU, because no kernel depends on the order of its
-// threads.
+// The CPU as a device, for tests: its memory is the host's memory, and it calls a kernel for one
+// index after the other. Its results equal those of a GPU, because no kernel depends on the order
+// of its threads.
 #pragma once
 
 #include <algorithm>
@@ -36,19 +36,19 @@ struct SerialMachine {
     template <class Kernel> static void for_each(std::uint32_t n, const Kernel& kernel) {
         for (std::uint32_t i = 0; i < n; ++i) kernel(i);
     }
-    /// `n` points to the number of threads in the device's memory; it is at most `most`.
+    /// Calls the kernel `*n` times. On a GPU `n` is in device memory, and `most` limits `*n`.
     template <class Kernel>
     static void for_each_of(const std::uint32_t* n, std::uint32_t /*most*/, const Kernel& kernel) {
         for_each(*n, kernel);
     }
-    /// Runs round `round` of kernels such as Waiting, with all threads of the device.
+    /// Runs one round of kernels such as Waiting, on a GPU with all threads of the device.
     template <class Rounds>
     static void run_round(const Rounds& rounds, int round, std::uint32_t /*most*/) {
         const std::uint32_t n = *rounds.size(round);
         for (std::uint32_t i = 0; i < n; ++i) rounds.search(round, i);
         for (std::uint32_t i = 0; i < n; ++i) rounds.match(round, i);
     }
-    /// Runs all further rounds, with one block of threads.
+    /// Runs all further rounds, on a GPU with one block of threads.
     template <class Rounds> static void finish_rounds(const Rounds& rounds, int round) {
         for (; *rounds.size(round) > 0; ++round) {
             rounds.begin(round);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs in the memory of a device, which carries out their steps. Engines use devices only through
-// this header, so that a compiler for GPUs gets as little of the program as possible.
+// Discs in the memory of a device, which runs their steps. Engines use devices only through this
+// header, so that a compiler for GPUs has to read as little of the program as possible.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@
 
 namespace carrom {
 
-/// The arguments of a window. Lengths are the scene's; speeds are per micro-step.
+/// The arguments of a window. Lengths are in the scene's unit; speeds are per micro-step.
 struct DeviceWindow {
     Window window;
     double reach = 0; ///< reach of the window (reach_of)
-    double speed = 0; ///< speed that the reach allows for; a faster disc cuts the window short
-    double flown = 0; ///< time of flights before the last sync that are not in the sums yet
+    double speed = 0; ///< speed for which the reach is enough; a faster disc cuts the window short
+    double flown = 0; ///< time of flights before the last sync that the sums still lack
     double stress_scale = 0; ///< ExactSum::scale of the sums of stress; 0: no stress is summed
 };
 
@@ -29,11 +29,11 @@ struct DeviceWindow {
 struct DeviceOutcome {
     int n_micro = 0;          ///< number of completed micro-steps
     double squared_speed = 0; ///< square of the largest speed since the last sync
-    /// Candidates found and carried out since the stepper was made
+    /// Numbers of candidates found and carried out since the stepper was made
     std::uint64_t n_candidates = 0, n_kept = 0;
 };
 
-/// A device's discs. Failures of the device throw CollectiveError.
+/// The discs on a device. If the device fails, functions throw CollectiveError.
 class Stepper {
 public:
     Stepper() = default;
@@ -43,20 +43,20 @@ public:
 
     /// Replaces the discs; their number never changes.
     virtual void put(std::span<const DiscState> discs) = 0;
-    /// Copies the discs in the order of the device's memory.
+    /// Copies the discs to the host, in the order of the device's memory.
     virtual void get(std::span<DiscState> discs) = 0;
     virtual DeviceOutcome run(const DeviceWindow& window) = 0;
-    /// Brings all discs to `time`, which is 0 from now on (EngineBase::restart_states), and returns
-    /// the largest squared speed. `window` gives `flown` and the scale.
+    /// Advances all discs to `time`, which is time 0 afterwards (EngineBase::restart_states), and
+    /// returns the largest squared speed. It uses `flown` and the scale of `window`.
     virtual double restart(double time, bool ends_flights, const DeviceWindow& window) = 0;
-    /// Adds the stress since the last call to `sums`, whose scale is that of the windows.
+    /// Adds the stress since the last call to `sums`, which must have the scale of the windows.
     virtual void take_stress(StressSums& sums) = 0;
 };
 
-/// Device memory in bytes for each disc, and for any run.
+/// Device memory in bytes: for each disc, and in addition for each run.
 constexpr std::uint64_t device_bytes_per_disc = 152, device_bytes_of_run = std::uint64_t{64} << 20;
 
-/// A kind of device. There is one for each way to compile the kernels.
+/// A kind of device; each way to compile the kernels has one.
 class DeviceKind {
 public:
     virtual ~DeviceKind() = default;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The data of a window's kernels: plain pointers into the device's memory, and the representation
-// of a disc's next event.
+// The data that a window's kernels use: plain pointers into the device's memory, and the
+// representation of a disc's next event.
 //
-// For each disc its first candidate of the window is stored: the contact that is first by
-// micro-step, and then by the total order. A micro-step handles only the candidates in it. So a
-// micro-step in which few discs collide touches few discs.
+// For each disc its first candidate in the window is stored: the contact that comes first by
+// micro-step, then by the total order. A micro-step handles only its own candidates, so it accesses
+// few discs if few discs collide in it.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@
 
 namespace carrom {
 
-/// Replaces a partner: the disc has no candidate.
+/// Value of a partner if the disc has no candidate.
 inline constexpr LocalIndex no_partner = wall_index - 1;
-/// Replaces a micro-step, which is counted from the window's start.
+/// Value of a micro-step, counted from the window's start, if the disc has no candidate.
 inline constexpr std::uint8_t no_micro = 255;
 static_assert(longest_window < no_micro);
 
@@ -40,16 +40,16 @@ struct NextEvent {
 /// Number of rounds that use the whole device; afterwards one block of threads does the rest.
 inline constexpr int rounds_of_all = 2;
 
-/// Numbers that kernels increase, and the host reads after a window.
+/// Numbers that kernels change and that the host reads after a window.
 struct DeviceCounters {
     std::uint32_t n_active = 0;  ///< discs with a candidate in the present micro-step
     std::uint32_t n_changed = 0; ///< discs whose first candidate must be found again
     std::uint32_t n_waiting[rounds_of_all + 2] = {};
     std::uint32_t is_cut = 0;  ///< whether discs are too fast for the rest of the window, 0 or 1
     std::uint32_t n_micro = 0; ///< completed micro-steps of the window
-    /// Candidates found and carried out since the run began
+    /// Numbers of candidates found and carried out since the run began
     std::uint64_t n_candidates = 0, n_kept = 0;
-    Largest squared_speed; ///< largest squared speed since the last sync, or over all discs
+    Largest squared_speed; ///< since the last sync, or over all discs
 };
 
 /// All data of a window's kernels. Arrays before `active` are indexed by slot.
@@ -60,13 +60,13 @@ template <class D> struct World {
     DeviceCells cells;
     Window window;
     std::uint32_t n = 0;
-    double squared_window_speed = 0; ///< speed that the window's reach allows for, squared
-    double flown = 0;        ///< time of flights before the last sync that are not in the sums yet
+    double squared_window_speed = 0; ///< square of the speed for which the reach is enough
+    double flown = 0;        ///< time of flights before the last sync that the sums still lack
     double stress_scale = 0; ///< 0: no stress is summed
 
     DiscState* discs = nullptr;
     std::uint32_t* cell = nullptr;
-    double* time = nullptr; ///< the disc's NextEvent is in this and the next four arrays
+    double* time = nullptr; ///< this and the next four arrays store the disc's NextEvent
     LocalIndex* partner = nullptr;
     std::int16_t *image_x = nullptr, *image_y = nullptr;
     std::uint8_t* micro = nullptr;
@@ -102,7 +102,7 @@ template <class D> struct World {
         return disc;
     }
 
-    /// The event of disc k as a candidate.
+    /// Disc k's event in the form that the total order compares.
     CARROM_DEVICE Candidate candidate(LocalIndex k, const NextEvent& event) const {
         Candidate candidate{event.time, k, event.partner};
         if (!candidate.is_wall() && discs[event.partner].id < discs[k].id) {
@@ -111,8 +111,8 @@ template <class D> struct World {
         }
         return candidate;
     }
-    /// Whether one candidate of disc k comes before another one of it. If two images of a disc
-    /// touch k at the same time, the order of the images is fixed, too.
+    /// Whether candidate a of disc k comes before candidate b of disc k. If two images of a disc
+    /// touch k at the same time, the images have a fixed order.
     CARROM_DEVICE bool is_before(LocalIndex k, const NextEvent& a, const NextEvent& b) const {
         if (b.partner == no_partner) return a.partner != no_partner;
         if (a.micro != b.micro) return a.micro < b.micro;
@@ -125,8 +125,8 @@ template <class D> struct World {
         return sign * a.image_y < sign * b.image_y;
     }
 
-    /// The candidate of disc k in the state `p` and the disc in another slot, from micro-step
-    /// `from` on.
+    /// The first candidate, from micro-step `from` on, between disc k in the state `p` and the disc
+    /// in slot `other`, displaced by `image`.
     CARROM_DEVICE NextEvent meeting(const DiscState& p, LocalIndex other, Image image,
                                     int from) const {
         const auto contact = D::is_periodic
@@ -139,7 +139,7 @@ template <class D> struct World {
         return {in_step_time(contact, m), other, static_cast<std::int16_t>(image.x),
                 static_cast<std::int16_t>(image.y), number_of(m)};
     }
-    /// The disc's first bounce from micro-step `from` on.
+    /// The disc's first collision with a wall from micro-step `from` on.
     CARROM_DEVICE NextEvent bounce(const DiscState& disc, int from) const {
         if (!dynamics.may_meet_wall(disc, window.end_micro())) return {};
         for (int m = from; m < window.end_micro(); ++m) {
@@ -159,7 +159,7 @@ template <class D> struct World {
             if (event.partner != no_partner) visit(event);
         });
     }
-    /// The first candidate of disc k from micro-step `from` on. Can skip discs that are taken.
+    /// Disc k's first candidate from micro-step `from` on; `passes_taken`: without taken discs.
     CARROM_DEVICE NextEvent first_event(LocalIndex k, int from, bool passes_taken) const {
         NextEvent first = bounce(discs[k], from);
         for_each_meeting(k, from, [&](const NextEvent& event) {

@@ -14,24 +14,24 @@ namespace carrom {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-/// A correct program may have roundings larger by this factor than the runs that show how they
-/// grow.
+/// A few runs show how large roundings become. In a correct program they may be larger than in
+/// these runs by this factor.
 constexpr double spread_margin = 1000;
-/// The same factor for a single step from known numbers.
+/// The same factor for a single step that begins from known numbers.
 constexpr double step_margin = 20;
-/// This many runs vary the last digits of the output's numbers, the others vary the last bits.
+/// Number of runs that vary the last digits of the student's numbers; other runs vary last bits.
 constexpr std::uint64_t own_runs = 6;
 /// In radii: if differences are this large, roundings may decide which discs collide.
 constexpr double deciding = 0.1;
-/// In radii: the largest tolerance for a number with few digits in a line whose other numbers have
-/// more, because it may have lost zeros at its end. If all lines are coarser, the next step cannot
-/// be computed from them.
+/// In radii: the largest tolerance for a number with few digits if other numbers of its line have
+/// more, because the number may have lost zeros at its end. If all lines are coarser than this, the
+/// next step cannot be computed from them.
 constexpr double coarsest_digit = 0.01;
 /// In radii: the largest tolerance for an output whose numbers all have few digits.
 constexpr double coarsest_output = 0.5;
-/// In box sides: larger than the roundings of a step in single precision, which has 24 bits.
+/// In box sides: more than the error of a step in single precision, which has 24 bits.
 constexpr double float_unit = 0x1p-21;
-/// In box sides: grading ends with a disc that is farther outside, because its numbers may
+/// In box sides: grading ends if a disc is farther outside than this, because its numbers may
 /// overflow.
 constexpr double farthest = 1000;
 
@@ -87,7 +87,7 @@ bool Grader::record_missing(std::int64_t step) {
     return record_problem(problem) && steps_.next_line() && steps_.next_line()->step > step;
 }
 
-/// Handles lines after the last step. Returns whether they are graded, as one more step.
+/// Handles lines after the last step. Returns whether these lines are graded as a further step.
 bool Grader::record_more(std::int64_t step) {
     if (!steps_.next_line()) return false;
     return record_problem(steps_.more_problem()) && step == scene_.steps &&
@@ -121,13 +121,13 @@ bool Grader::grade_lines(std::int64_t step, const ExpectedDiscs& expected) {
     const Aim aim = has_left_runs_ ? aim_from_own_lines() : aim_at(expected);
     const bool is_right = hold(aim, step);
     if (!is_right && !(counts_points_ && are_possible(step))) return false;
-    if (!is_right) has_left_runs_ = true; // the program's own run cannot be compared any more
+    if (!is_right) has_left_runs_ = true; // later steps no longer match the program's own run
     go_on_from_lines(step, aim.discs);
     return true;
 }
 
-/// Makes the student's lines the state that the next step is graded from. `counters` are those of
-/// the rule, or empty if they are unknown.
+/// Makes the student's lines the state from which the next step is graded. `counters` are the
+/// rule's counters, or empty if they are unknown.
 void Grader::go_on_from_lines(std::int64_t step, const std::vector<DiscState>& counters) {
     if (counters.empty()) is_counter_unknown_.assign(scene_.n_discs, true);
     own_before_ = own_state(counters, step);
@@ -138,8 +138,8 @@ void Grader::go_on_from_lines(std::int64_t step, const std::vector<DiscState>& c
     written_before_ = step;
 }
 
-/// A step can be computed from the student's lines only if these are the lines of the step before
-/// and precise enough.
+/// Whether this step can be graded. From the student's lines it needs the lines of the step before,
+/// with enough digits.
 bool Grader::can_grade(std::int64_t step) const {
     if (!has_left_runs_) return true;
     return own_before_ && step - written_before_ == 1 &&
@@ -172,8 +172,8 @@ bool Grader::hold_precision(const Aim& aim) {
     return false;
 }
 
-/// Checks conditions that hold at any step and for any roundings: finite numbers, and centres in
-/// the box. If points are counted, it is enough that the rule can continue from the numbers.
+/// Checks conditions that hold at any step and for any roundings: numbers are finite, and centres
+/// lie in the box. If points are counted, it is enough that the rule can continue from them.
 bool Grader::are_possible(std::int64_t step) {
     const double longest = setting_.box.longest();
     // A disc may be beyond its wall until the end of the micro-step.
@@ -205,7 +205,7 @@ Grader::Aim Grader::aim_at(const ExpectedDiscs& expected) const {
     return aim;
 }
 
-/// The student's numbers as a state of the run, with these counters, or without counters.
+/// The student's lines as a state of a run, with the given counters or without counters.
 SharedState Grader::own_state(const std::vector<DiscState>& counters, std::int64_t step) const {
     SharedState state{setting_, {}, step * setting_.micro_steps};
     const auto tau = static_cast<double>(state.micro_steps_done % setting_.sync_every);
@@ -223,7 +223,7 @@ SharedState Grader::own_state(const std::vector<DiscState>& counters, std::int64
     return state;
 }
 
-/// Changes numbers to others that the student's program would write in the same way.
+/// Changes numbers at random within the rounding of the student's last digits.
 void Grader::move_last_digits(DiscState& disc, std::uint64_t seed) const {
     double* const numbers[] = {&disc.x, &disc.y, &disc.vx, &disc.vy};
     for (std::uint64_t i = 0; i < 4; ++i) {
@@ -233,8 +233,8 @@ void Grader::move_last_digits(DiscState& disc, std::uint64_t seed) const {
     }
 }
 
-/// One step of the rule from the student's lines of the step before. The other runs begin from
-/// states within the rounding of the student's last digits.
+/// Computes one step of the rule from the student's lines of the step before, and further runs from
+/// states within the rounding of these lines' last digits.
 Grader::Aim Grader::aim_from_own_lines() const {
     Aim aim;
     std::vector<double> spread(scene_.n_discs, 0);
@@ -285,8 +285,8 @@ bool Grader::hold_to(const Aim& aim, std::int64_t step) {
     return true;
 }
 
-/// If roundings decide which discs collide, a disc may be at any position that a rounding can
-/// produce. Equal times do not depend on rounding, so a wrong choice between them is a mistake.
+/// Accepts any result that a rounding can produce if roundings decide which discs collide. A choice
+/// between equal times does not depend on roundings, so a wrong choice is a mistake.
 bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     for (const StudentLine& line : lines()) {
         if (aim.allowed[line.id] != unlimited) continue;
@@ -338,7 +338,7 @@ std::vector<GivenDisc> Grader::given(const Aim& aim) const {
     return discs;
 }
 
-/// Records the disc's line if it is the first that differs; returns false.
+/// Records this line as the verdict if no line before has differed. Returns false.
 bool Grader::blame(const Aim& aim, DiscId id, std::int64_t step) {
     if (!verdict_.empty()) return false;
     const StudentLine& line = lines()[id];

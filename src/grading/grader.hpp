@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares a student's lines with the rule, step by step, on one rank.
 //
-// At first lines are compared with the program's own run. Each disc may differ by the tolerance and
-// by what roundings have grown to. Once these have grown to the size of discs, two correct programs
+// At first lines are compared with the program's own run. Each disc may differ by the tolerance
+// plus the present size of roundings. Once roundings are as large as discs, two correct programs
 // differ. Then each step is compared with the rule applied to the student's own step before. A step
-// that is missing or cannot be read is counted, and later steps are still graded. Takes the memory
-// of N lines, and later a step of the plain rule for each step.
+// that is missing or unreadable is counted, and later steps are still graded. Memory: N lines.
+// Time, in the second part: a step of the plain rule for each step.
 #pragma once
 
 #include <algorithm>
@@ -31,11 +31,11 @@ public:
     Grader(const SceneParameters& scene, double tolerance, std::istream& stream,
            const std::string& name, bool counts_points);
 
-    /// Once this is true, the program's own runs are no longer needed.
+    /// Whether the student's lines have replaced the program's own runs, which are then not needed.
     bool has_left_runs() const { return has_left_runs_; }
     /// Reads the lines of that step, if there are any, and compares them with the rule. `expected`
-    /// is empty after `has_left_runs`. Returns whether to grade the next step, which may be one
-    /// after the last.
+    /// is empty once `has_left_runs()` is true. Returns whether to grade the next step, which may
+    /// be the one after the last.
     bool grade(std::int64_t step, const ExpectedDiscs& expected);
     /// Whether no line has differed so far.
     bool is_right() const { return verdict_.empty(); }
@@ -43,11 +43,11 @@ public:
     /// Whether all written steps so far were compared with the rule.
     bool has_graded_all() const { return n_not_graded_ == 0; }
 
-    /// The line that differs, or in which sense the output is correct.
+    /// Describes the line that differs, or in which sense the output counts as correct.
     std::string verdict() const;
 
 private:
-    /// The expected result of a step.
+    /// The expected result of a step, and how far lines may differ from it.
     struct Aim {
         std::vector<DiscState> discs;
         double clock = 0;
@@ -90,11 +90,11 @@ private:
     double tolerance_, unit_;
     StudentSteps steps_;
     std::optional<SharedState> before_;     ///< the discs at the last graded step
-    std::optional<SharedState> own_before_; ///< the same step by the student's lines
+    std::optional<SharedState> own_before_; ///< discs of that step from the student's lines
     std::int64_t written_before_ = 0;
     double unit_of_float_ = 0; ///< nonzero if the student's numbers are in single precision
     std::vector<double> digits_before_; ///< StudentLine::last_digit
-    /// The finest last digit of any line, now and at the step before
+    /// The finest last digit of all lines, in this step and in the step before
     double finest_ = 0, finest_before_ = 0;
     std::vector<bool> is_counter_unknown_;
     bool has_left_runs_ = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads the lines of discs in the output of a student's program one by one. Other lines, such as a
-// header or a time, are left out with a remark, because they say nothing about the discs.
+// header or a time, contain no disc; they are skipped and listed in a remark.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct StudentLine {
     double x = 0, y = 0, vx = 0, vy = 0;
     double digits[4] = {}; ///< the unit of the last digit of x, y, vx, vy; 0 for a whole number
     double last_digit = 0; ///< unit of the last digit of the number with the fewest digits
-    /// This unit for the number with the most digits; infinite if all are whole numbers
+    /// unit of the last digit of the number with most digits; infinite if all are whole numbers
     double finest_digit = 0;
     bool has_counters = false;
     std::uint64_t pair_collisions = 0, wall_collisions = 0;
@@ -32,8 +32,8 @@ public:
     /// `stream` must outlive this.
     StudentOutput(std::istream& stream, std::string name);
 
-    /// The next line of a disc; false at the end. Throws InputError if a word is not a number, or
-    /// if no line of the output is a disc.
+    /// Reads the next line of a disc; returns false at the end. Throws InputError if a word is not
+    /// a number, or if the output has no line of a disc.
     bool next(StudentLine& line);
 
     /// Describes the lines that were left out; empty if there are none.

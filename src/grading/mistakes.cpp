@@ -24,8 +24,8 @@ constexpr const char* stop_at_wall = "stop at a wall";
 constexpr const char* overlap = "overlap";
 constexpr const char* corner = "corner";
 
-/// Small deviations from the rule come first, because the first mistake that produces the lines is
-/// reported.
+/// Small deviations from the rule come first, because the search reports the first mistake that
+/// produces the lines.
 constexpr std::array known_mistakes{
     KnownMistake{Mistake::ties_by_higher_id, order,
                  "of collisions at equal times the one of the higher ids is kept"},
@@ -76,7 +76,7 @@ constexpr std::array known_mistakes{
     KnownMistake{Mistake::wall_missed, candidates, "a disc flew on freely through a wall"},
 };
 
-/// Mistakes about a single disc are tried with this many discs.
+/// A mistake that concerns a single disc is tried for up to this number of discs.
 constexpr std::size_t most_subjects = 4;
 
 std::vector<GivenDisc> run(const SharedState& state, std::int64_t micro_steps, Mistake mistake,
@@ -110,8 +110,8 @@ bool concerns_one_disc(Mistake mistake) {
            mistake == Mistake::wall_missed;
 }
 
-/// Returns `wrong` and a few other discs whose lines differ from those of the rule, because one of
-/// these discs may be the reason why `wrong` meets another disc.
+/// Returns `wrong` and a few other discs whose lines differ from the rule, because an error at one
+/// of them may be the reason why `wrong` meets another disc.
 std::vector<DiscId> differing(const std::vector<GivenDisc>& made,
                               const std::vector<GivenDisc>& given, DiscId wrong) {
     std::vector<DiscId> ids{wrong};
@@ -199,7 +199,7 @@ bool is_rounded_to_float(const std::vector<StudentLine>& lines, const std::vecto
 }
 
 bool can_explain(std::uint64_t n_discs, std::int64_t micro_steps) {
-    constexpr double most_pairs = 2e10; // so many pairs take a minute or two
+    constexpr double most_pairs = 2e10; // testing this many pairs takes a minute or two
     const auto n = static_cast<double>(n_discs);
     return n * n / 2 * static_cast<double>(micro_steps) *
                static_cast<double>(known_mistakes.size() + 3 * most_subjects) <

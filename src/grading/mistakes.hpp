@@ -30,30 +30,30 @@ struct SharedState {
 struct Explanation {
     const char* rule;    ///< the violated rule of docs/classroom.md
     const char* mistake; ///< the mistake in the student's program that produces these lines
-    /// The mistake is a wrong choice between collisions at the same time
+    /// Whether the mistake is a wrong choice between collisions at the same time
     bool is_of_equal_times = false;
-    std::size_t n_unexplained = 0; ///< number of lines that it does not explain
+    std::size_t n_unexplained = 0; ///< number of lines that the mistake does not explain
 };
 
-/// The mistake that reproduces the line of disc `wrong` after `micro_steps` more, and most other
-/// lines. `given` is by id. Costs a run of the plain rule for each mistake.
+/// The mistake that reproduces the line of disc `wrong` and most other lines, `micro_steps` after
+/// `state`. `given` is in the order of ids. Cost: a run of the plain rule for each mistake.
 std::optional<Explanation> explain(const SharedState& state, std::int64_t micro_steps,
                                    const std::vector<GivenDisc>& given, DiscId wrong);
 
-/// Whether the plain rule leads from the state to the discs in `micro_steps`; `clock` is their
-/// time.
+/// Whether the plain rule leads in `micro_steps` from the state to `discs`, whose times count to
+/// `clock`.
 bool follows_rule(const SharedState& state, std::int64_t micro_steps,
                   const std::vector<DiscState>& discs, double clock);
 
-/// The contacts of the disc in the next micro-step by the rule, one line for each candidate.
+/// Lists the disc's contacts in the next micro-step by the rule, one line for each candidate.
 std::string facts(const SharedState& state, DiscId id);
 
-/// Whether all lines are the discs at time 0 rounded to single precision, as far as their digits
-/// show. `unit` is the factor of velocities.
+/// Whether all lines are the discs at time 0 rounded to single precision, within the digits of the
+/// lines. `unit` is the factor of velocities.
 bool is_rounded_to_float(const std::vector<StudentLine>& lines, const std::vector<DiscState>& discs,
                          double unit);
 
-/// Returns false if a search would take minutes.
+/// Whether a search for the mistake takes less than a few minutes.
 bool can_explain(std::uint64_t n_discs, std::int64_t micro_steps);
 
 } // namespace carrom

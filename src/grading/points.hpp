@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The score in parts of `carrom compare --points`. A step is right if the rule leads to it from the
-// student's own step before, so one wrong rule costs only the steps in which it matters. A part
-// that is not in the output is left out of the sum, unless the task requires it.
+// student's own step before. So a wrong rule costs only the steps in which it matters. A part that
+// the output lacks is left out of the sum, unless the task requires it.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 namespace carrom {
 
 struct Points {
-    /// Each written step has all discs, and the output ends at the right step
+    /// Whether each written step has all discs and the output ends at the right step
     bool are_lines_whole = true;
-    bool are_in_order = true; ///< lines of each step are in the order of ids
-    /// Unset: not in the output, or not graded
+    bool are_in_order = true; ///< whether lines of each step are in the order of ids
+    /// Unset if the output lacks this part, or if it was not graded
     std::optional<bool> is_start_right, are_counters_right;
-    std::int64_t n_right = 0, n_graded = 0; ///< counts of steps after the start
-    std::int64_t n_missing = 0;             ///< steps that the task requires but the output lacks
+    std::int64_t n_right = 0, n_graded = 0; ///< numbers of steps after the start
+    std::int64_t n_missing = 0;             ///< number of required steps that the output lacks
 
     /// The sum of all parts, and a line for each part.
     std::string text() const;

@@ -25,7 +25,7 @@ void advance(DiscState& disc, double time) {
 
 bool is_wall(const PlainRule::Candidate& candidate) { return candidate.q == Collision::wall; }
 
-/// Orders by time, then the lower id, then the wall before a pair, then the other id.
+/// The total order: by time, then the lower id, then wall before pair, then the other id.
 auto place_in_order(const PlainRule::Candidate& c) {
     return std::make_tuple(c.t, c.p, is_wall(c) ? 0 : 1, c.q);
 }
@@ -109,7 +109,7 @@ void PlainRule::inspect(const DiscState& p, const DiscState& q, double m) {
     if (t >= 0 && t <= 1) candidates_.push_back({t, p.id, q.id});
 }
 
-/// The time from the micro-step's start; `never` if there is no contact.
+/// The contact's time since the micro-step's start; `never` if the discs do not touch.
 double PlainRule::contact_time(const DiscState& p, const DiscState& q, double m) const {
     if (const double t = overlap_time(p, q, m); t != never) return t;
     if (mistake_ == Mistake::overlap_at_end) return never;
@@ -117,8 +117,8 @@ double PlainRule::contact_time(const DiscState& p, const DiscState& q, double m)
     return contact.exists() ? (contact.base - m) + contact.delay : never;
 }
 
-/// The time of the collision of two overlapping discs. The rule lets them pass through each other;
-/// a program with this mistake makes them collide.
+/// The time at which two overlapping discs collide; `never` by the rule, which lets them pass
+/// through each other. Some mistakes make them collide.
 double PlainRule::overlap_time(const DiscState& p, const DiscState& q, double m) const {
     const double sigma = 2 * setting_.radius;
     const double at = mistake_ == Mistake::overlap_at_end ? m + 1 : m;
@@ -169,8 +169,8 @@ void PlainRule::keep_candidates(double m) {
     }
 }
 
-/// Whether the mistake affects this candidate: it is the first one of `subject` of the right kind,
-/// and the mistake has not been made yet.
+/// Whether the mistake affects this candidate: it is the first candidate of disc `subject` of the
+/// right kind (wall or pair). Returns true only once.
 bool PlainRule::is_first_of_subject(const Candidate& candidate, Mistake mistake) {
     const bool is_its_own = candidate.p == subject_ ||
                             (!is_wall(candidate) && candidate.q == subject_);
@@ -180,8 +180,8 @@ bool PlainRule::is_first_of_subject(const Candidate& candidate, Mistake mistake)
     return true;
 }
 
-/// The event-driven method inside the micro-step: after each collision its discs are searched
-/// again.
+/// Applies the event-driven method inside the micro-step: after each collision, new collisions of
+/// its discs are searched.
 void PlainRule::keep_all_collisions(double m) {
     const auto sooner = [](const Candidate& a, const Candidate& b) {
         return place_in_order(a) < place_in_order(b);
@@ -223,9 +223,9 @@ void PlainRule::keep(const Candidate& candidate, double m) {
     if (is_first_of_subject(candidate, Mistake::one_disc_only)) discs_[subject_] = before;
 }
 
-/// Carries out each collision from the discs at the micro-step's start, as if it were the only one.
-/// A disc flies on from its last collision. Changes of velocity add up, or the last one replaces
-/// those before, as in a program that writes the discs into a second array.
+/// Carries out each collision with the discs of the micro-step's start, as if it were the only one.
+/// A disc then flies on from its last collision. Its changes of velocity add up, or the last change
+/// wins, as in a program that writes the discs to a second array.
 void PlainRule::keep_from_start(const Candidate& candidate, double m) {
     const auto change = [this](DiscId id, const DiscState& made) {
         const DiscState& start = start_[id];
@@ -275,7 +275,7 @@ void PlainRule::bounce(DiscState& disc, double m, double t) const {
     advance(disc, m + t);
     bool x_reverses = tx == t || x_walls_.touches(disc.x, disc.vx);
     bool y_reverses = ty == t || y_walls_.touches(disc.y, disc.vy);
-    // Happens only with every_candidate, after an earlier collision
+    // Occurs only with the mistake every_candidate, after an earlier collision of the disc
     if (!x_reverses && !y_reverses) {
         const auto gap = [](const RestingWalls<double>& walls, double x, double v) {
             return v == 0 ? never : v < 0 ? x - walls.low() : walls.high() - x;

@@ -3,7 +3,7 @@
 // to find the mistake that produces a student's line.
 //
 // A micro-step tests all pairs whose paths may meet, sorts all candidates by the total order and
-// walks them. Without a mistake the decisions are the engine's. Price: up to N^2/2 predicates.
+// handles them in turn. Without a mistake it decides like the engine. Cost: up to N^2/2 tests.
 #pragma once
 
 #include <cstdint>
@@ -98,9 +98,9 @@ private:
     double deepest_overlap_;
     Mistake mistake_;
     DiscId subject_;
-    bool has_missed_ = false; ///< the mistake about `subject` has already been made
+    bool has_missed_ = false; ///< whether the mistake about `subject` has been made
     std::vector<DiscState> discs_;
-    /// The discs at the start of the micro-step, for `..._from_start`
+    /// The discs at the micro-step's start, for mistakes with `from_start` in their name
     std::vector<DiscState> start_;
     std::int64_t micro_steps_;
     std::vector<Candidate> candidates_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The run that a student's output is compared with, and two runs of the same scene with other
-// roundings: one begins with changed last bits, and one also uses the course program's formulas.
-// Their distance from the first run shows how much roundings have grown.
+// roundings. One begins with changed last bits; the other also uses the course program's formulas.
+// Their distance from the first run shows how large roundings have become.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ public:
     ComparedRuns(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                  const Communicator& ranks);
 
-    /// Advances the runs to that step. Rank 0 gets discs, the others an empty list. **Collective.**
+    /// Advances the runs to that step. Rank 0 gets discs, others get an empty list. **Collective.**
     ExpectedDiscs at(std::int64_t step);
 
 private:
@@ -43,7 +43,7 @@ private:
 /// A random number from -1 to 1 that is a function of the arguments.
 double drawn(std::uint64_t id, std::uint64_t seed);
 
-/// `place` with its last few bits changed up or down; 0 stays 0.
+/// `place` with its last few bits changed at random; 0 stays 0.
 double nudged(double place, std::uint64_t id, std::uint64_t seed);
 
 /// The largest difference between the four numbers of two discs; `unit` is the factor of

@@ -53,7 +53,7 @@ void StudentSteps::read() {
         fmt::format("{}: step {}, disc {} is missing", where, step, missing - is_there_.begin()));
 }
 
-/// Takes the next line, which follows `n_before` lines of this step.
+/// Stores the next line, after `n_before` lines of the same step.
 void StudentSteps::take(std::uint64_t n_before) {
     const StudentLine& line = *next_;
     if (line.id >= lines_.size()) {

@@ -18,7 +18,7 @@ namespace carrom {
 struct WantedSteps {
     std::uint64_t n_discs = 0;
     std::int64_t last = 0;
-    bool are_all = false; ///< false: only the last step is required
+    bool are_all = false; ///< whether all steps are required, or only the last
 };
 
 class StudentSteps {
@@ -30,7 +30,7 @@ public:
         return step == wanted_.last || (wanted_.are_all && step < wanted_.last);
     }
 
-    /// The next line that has not been read; nothing at the end of the output.
+    /// The next line, which is not yet part of a step; nothing at the end of the output.
     const std::optional<StudentLine>& next_line() const { return next_; }
     bool is_next(std::int64_t step) const { return next_ && next_->step == step; }
 
@@ -41,15 +41,15 @@ public:
     const std::vector<StudentLine>& lines() const { return lines_; }
     bool is_whole() const { return is_whole_; } ///< each disc has exactly one line
     bool has_counters() const { return n_counters_ == lines_.size(); }
-    /// The problem with the form of the lines, or empty. The last step of the output may have
-    /// counters, even if it is too early.
+    /// Describes what is wrong with the form of the lines, or is empty. The output's last step may
+    /// have counters, even if it comes too early.
     const std::string& problem() const { return problem_; }
     /// Whether every disc has a line and `problem` is only about the order of lines.
     bool is_only_in_other_order() const { return is_whole_ && !is_in_order_; }
 
-    /// The problem if the next line does not belong to `step`, or empty.
+    /// The message that `step` is missing if the next line is of another step; otherwise empty.
     std::string missing_problem(std::int64_t step) const;
-    /// The problem that there is a line after the last step.
+    /// The message that the output has a line after the last step.
     std::string more_problem() const;
 
     /// See StudentOutput.
@@ -65,7 +65,7 @@ private:
     StudentOutput output_;
     std::optional<StudentLine> next_;
     std::vector<StudentLine> lines_;
-    std::vector<bool> is_there_; ///< whether the step has a line of the disc, for each id
+    std::vector<bool> is_there_; ///< by id: whether the step has a line of the disc
     bool is_whole_ = false, is_in_order_ = true;
     std::uint64_t n_counters_ = 0;
     std::string problem_;

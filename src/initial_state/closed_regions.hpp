@@ -5,9 +5,9 @@
 //
 // The box is covered with points that are two thirds of the smallest radius apart. A point is
 // blocked if the smallest disc there would overlap a fixed body by more than this distance, or if
-// it is near a line across a gap that is too narrow (narrow_gaps.hpp). A flood fill finds the
-// connected regions of the other points. So two regions are connected if the smallest disc fits
-// through the gap between them. A region at an open side counts as open. Cost: four bytes and a few
+// the point is near a line across a gap that is too narrow (narrow_gaps.hpp). A flood fill finds
+// the connected regions of free points. So two regions are connected if the smallest disc fits
+// through the gap between them. A region at an open side is not closed. Cost: four bytes and a few
 // nanoseconds a point on each rank.
 #pragma once
 
@@ -20,12 +20,12 @@
 namespace carrom {
 
 struct ShutInDiscs {
-    std::uint64_t n_discs = 0; ///< number of discs outside the largest region
+    std::uint64_t n_discs = 0; ///< discs in closed regions, except the largest region
     std::uint64_t n_regions = 0;
 };
 
-/// `discs` are in any distribution over the ranks. Finds nothing if the box would need more than
-/// four million points. **Collective.**
+/// Counts the discs, in any distribution over the ranks. Finds nothing if the box would need more
+/// than four million points. **Collective.**
 ShutInDiscs find_shut_in(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                          const Communicator& communicator);
 

@@ -9,10 +9,10 @@
 
 namespace carrom {
 
-/// Discs whose centres lie in a region of `discs.freeze`, edges included, or that belong to a
-/// frozen group, become fixed bodies of the scene (set_frozen). The remaining discs get new ids
+/// Makes discs fixed bodies of the scene (set_frozen): those whose centres lie in a region of
+/// `discs.freeze`, edges included, and those of a frozen group. The remaining discs get new ids
 /// from 0 on in the order of their old ids. Throws InputError on every rank if no disc freezes, or
-/// all do. **Collective.**
+/// if all do. **Collective.**
 void freeze_discs(SceneParameters& scene, std::vector<InputDisc>& discs, const Communicator& ranks);
 
 } // namespace carrom

@@ -37,7 +37,7 @@ std::vector<InputDisc> discs_on_sites(const SceneParameters& scene,
     discs.reserve(last - first);
     const std::uint64_t stride = scene.effects.species.empty() ? 1 : mixing_stride(scene.n_discs);
     for (DiscId id = first; id < last; ++id) {
-        // No overflow, because ids are below 2^32
+        // The product cannot overflow, because ids are below 2^32
         const Point place = place_of(id * stride % scene.n_discs);
         discs.push_back({id, place.x, place.y, 0, 0});
     }
@@ -97,8 +97,8 @@ std::vector<InputDisc> generated_places(const SceneParameters& scene,
                                         const Communicator& communicator, int n_threads) {
     if (scene.generator == Generator::lattice) return lattice_discs(scene, communicator);
     if (scene.generator == Generator::triangular) return triangular_discs(scene, communicator);
-    // The number of threads is limited, because placing has hundreds of short parallel regions, for
-    // each of which all threads have to wake.
+    // Limits the number of threads, because insertion has hundreds of short parallel regions, and
+    // all threads have to wake for each of them.
     const std::uint64_t own = scene.n_discs / static_cast<std::uint64_t>(communicator.size());
     return insert_at_random(scene, communicator, useful_threads(n_threads, own));
 }

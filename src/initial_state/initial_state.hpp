@@ -30,10 +30,10 @@ void refuse_in_fixed_bodies(const SceneParameters& scene, const std::vector<Inpu
                             const Communicator& communicator);
 
 /// Returns every disc of the scene exactly once, on any rank. No rank holds more than its share and
-/// a bounded chunk. Compressed starts and groups are made elsewhere, because they need engines
-/// (simulation/first_discs.hpp). `lines` is the stream of listed discs on rank 0, or null if the
-/// scene has a generator; its problems become an InputError on every rank. Scenes with a generator
-/// give the same discs for any number of ranks. **Collective.**
+/// a bounded chunk. Compressed starts and groups come from simulation/first_discs.hpp, because they
+/// need engines. `lines` is the stream of listed discs on rank 0, or null if the scene has a
+/// generator. Problems with it become an InputError on every rank. A generator gives the same discs
+/// for any number of ranks. **Collective.**
 std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream* lines,
                                      const Communicator& communicator, int n_threads = 1);
 

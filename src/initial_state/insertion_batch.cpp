@@ -13,16 +13,16 @@ namespace carrom {
 
 namespace {
 
-// The number of proposals of a rank in a batch. With too few the exchange takes most of the time,
-// with many they need much memory.
+// The number of proposals of a rank in a batch. With fewer proposals the exchange takes most of the
+// time; more proposals need much memory.
 constexpr double least_proposals = 1 << 14, most_proposals = 1 << 20;
 constexpr std::uint64_t most_rounds = 4096; ///< largest number of rounds of a batch
-/// A batch should place at most this share of the discs, because the proposals of a placed disc in
-/// later rounds of the batch are useless.
+/// A batch should place at most this share of the discs, because later proposals of a placed disc
+/// in the same batch are useless.
 constexpr double most_placed_share = 0.25;
 
-/// The largest number of places that a batch should find, because each rank decides about all of
-/// them, one after the other.
+/// The largest number of places that a batch should find, because every rank decides about all of
+/// these places, one after the other.
 std::uint64_t most_found(std::uint64_t n_discs) {
     return std::max<std::uint64_t>(1024, n_discs / 1024);
 }
@@ -65,7 +65,7 @@ std::optional<std::uint64_t> InsertionBatch::judge(std::vector<std::uint32_t>& u
 void InsertionBatch::take_out(std::vector<Notice> found, std::vector<std::uint32_t>& unplaced) {
     std::ranges::sort(found, {}, &Notice::id);
     const std::size_t n_marks = std::bit_ceil(64 * found.size());
-    std::vector<std::uint8_t> may_be_found(n_marks, 0); // indexed by the last bits of ids
+    std::vector<std::uint8_t> may_be_found(n_marks, 0); // by the last bits of ids
     for (const Notice& notice : found) may_be_found[notice.id % n_marks] = 1;
     std::erase_if(unplaced, [&](std::uint32_t id) {
         return may_be_found[id % n_marks] != 0 &&
@@ -91,8 +91,8 @@ void InsertionBatch::find_free() {
     }
 }
 
-/// Lists the proposals that overlap a free proposal of the same round and have a lower id, whether
-/// or not they are rejected elsewhere.
+/// Lists the proposals that overlap a free proposal of the same round and have a lower id than it.
+/// They count even if another overlap rejects them.
 void InsertionBatch::find_rivals() {
     rivals_.clear();
     std::vector<Notice> images; // free proposals and their periodic images
@@ -143,14 +143,14 @@ bool InsertionBatch::has_rival(const Notice& notice, const Counts& counts) const
     return false;
 }
 
-/// Returns the places that are found, in the order of rounds. A placed disc makes no more
-/// proposals.
+/// Returns the places that have been found, in the order of rounds. The proposals of a disc after
+/// its placement do not count.
 std::vector<Notice> InsertionBatch::decide() {
     std::sort(free_.begin(), free_.end(), [](const Notice& a, const Notice& b) {
         return std::tie(a.round, a.id) < std::tie(b.round, b.id);
     });
     std::sort(rivals_.begin(), rivals_.end());
-    // For each placed disc the round, by id
+    // The round in which each placed disc was placed, by id
     std::unordered_map<std::uint32_t, std::uint32_t> round_of;
     std::vector<Notice> found;
     PointGrid near_found(0, box_.box().x, box_.box().y, box_.diameter(),

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Judges many rounds of random insertion at once, with the same result as one by one.
+// Judges many rounds of random insertion together; the result is the same as round by round.
 //
 // When little free space is left, nearly all proposals overlap a disc that has been placed. The few
-// other proposals, and those of the same round that they overlap, are sent to all ranks. All ranks
-// decide in the same way, in the order of rounds and ids. So thousands of rounds need one exchange,
-// and threads share the proposals.
+// free proposals, and the proposals of the same round that overlap them, are sent to all ranks. All
+// ranks decide in the same way, in the order of rounds and ids. So thousands of rounds need only
+// one exchange, and threads share the proposals.
 #pragma once
 
 #include <compare>
@@ -23,20 +23,20 @@ public:
                    PlacedDiscs& placed)
         : box_(box), communicator_(communicator), n_threads_(n_threads), placed_(placed) {}
 
-    /// Places discs of `unplaced` and removes them from the list. Each rank has other discs in its
-    /// list, `n_left` in all. Returns the last round in which a place was found, counted from the
-    /// first one. **Collective.**
+    /// Places discs of `unplaced` and removes them from this list. Lists of different ranks have no
+    /// common discs; `n_left` is their total length. Returns the last round in which a place was
+    /// found, counted from `first_round`. **Collective.**
     std::optional<std::uint64_t> judge(std::vector<std::uint32_t>& unplaced, std::uint64_t n_left,
                                        std::uint64_t first_round, std::uint64_t n_rounds);
 
-    /// The number of rounds of the next batch, if the last one had `n_rounds` and placed `n_placed`
-    /// discs, and `n_left` are still without a place. Numbers are sums over all ranks.
+    /// The next batch's number of rounds, if the last batch placed `n_placed` discs in `n_rounds`
+    /// and `n_left` discs have no place yet. These numbers are sums over all ranks.
     std::uint64_t choose_rounds(std::uint64_t n_placed, std::uint64_t n_rounds,
                                 std::uint64_t n_left) const;
 
 private:
-    /// A proposal that overlaps a later one of the same round. The later one is then rejected,
-    /// unless the disc of the earlier one has been placed in a previous round.
+    /// A proposal (`earlier`, the lower id) that overlaps proposal `id` of the same round. `id` is
+    /// then rejected, unless the disc `earlier` has been placed in a previous round.
     struct Rival {
         std::uint32_t round = 0, id = 0, earlier = 0;
 
@@ -56,7 +56,7 @@ private:
     PlacedDiscs& placed_;
     RawVector<Notice> proposals_;
     std::vector<Notice> free_;  ///< proposals that overlap no disc placed before the batch
-    std::vector<Rival> rivals_; ///< overlaps among free proposals and their periodic images
+    std::vector<Rival> rivals_; ///< overlaps of free proposals with proposals of lower ids
 };
 
 } // namespace carrom

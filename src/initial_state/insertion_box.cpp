@@ -10,8 +10,8 @@ namespace carrom {
 
 namespace {
 
-/// Ranks that have many discs exchange about this many proposals at once, because the sent and the
-/// received data each take as much memory as the proposals.
+/// Ranks exchange about this many proposals at a time, because the sent and the received data each
+/// take as much memory as the proposals.
 constexpr double most_at_once = 1 << 16;
 
 } // namespace
@@ -21,8 +21,8 @@ void InsertionBox::propose(const Proposers& proposers, std::span<const Notice> u
     const std::uint64_t n = proposers.ids.size() * proposers.n_rounds;
     concerning.clear();
     if (communicator_.size() == 1) return make_proposals(proposers, 0, n, n_threads, concerning);
-    // Reserves all memory now, because a growing list exists twice for a while. Reserved memory
-    // that is not used takes no space.
+    // Reserves all memory now, because a list that grows is in memory twice for a while. Reserved
+    // memory takes no space before it is used.
     concerning.reserve(static_cast<std::size_t>(1.1 * static_cast<double>(n + updates.size())) +
                        1000);
     const double n_of_rank = static_cast<double>(proposers.n_of_all * proposers.n_rounds) /
@@ -50,7 +50,7 @@ std::vector<Notice> InsertionBox::gather(const std::vector<InputDisc>& given) co
     return all;
 }
 
-/// Makes the proposals number `first` to `end` - 1, counted over all rounds.
+/// Makes the proposals `first` to `end` - 1 of this rank, numbered through all rounds.
 void InsertionBox::make_proposals(const Proposers& proposers, std::uint64_t first,
                                   std::uint64_t end, int n_threads, RawVector<Notice>& made) const {
     const std::size_t n = proposers.ids.size();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The box of random insertion: how positions are proposed, which discs overlap, and which ranks
-// need a position. In its coordinates x is along the longer side, which strips cut.
+// need a position. Its x axis is along the box's longer side, which is cut into strips.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ struct Notice {
 
 /// The discs that still need a position, and the rounds in which they propose one.
 struct Proposers {
-    std::span<const std::uint32_t> ids; ///< each rank has other discs
+    std::span<const std::uint32_t> ids; ///< lists of different ranks have no common id
     std::uint64_t n_of_all = 0;         ///< number of these discs on all ranks
     std::uint64_t first_round = 0, n_rounds = 1;
 };
@@ -54,7 +54,7 @@ public:
     double radius_of(DiscId id) const { return species_.of(id).radius; }
     const Box& box() const { return box_; }
     Axis axis() const { return axis_; }
-    /// Mean number of discs of a rank.
+    /// Mean number of discs per rank.
     double share() const { return static_cast<double>(scene_.n_discs) / communicator_.size(); }
 
     double strip_low() const {
@@ -123,7 +123,7 @@ public:
         return fixed_bodies_.do_overlap(x, y, radius_of(notice.id));
     }
 
-    /// Whether the disc's position is found by insertion.
+    /// Whether random insertion has to find the disc's position.
     bool is_random(DiscId id) const {
         DiscId end = 0;
         for (const DiscGroup& group : scene_.groups)
@@ -131,16 +131,16 @@ public:
         return true;
     }
 
-    /// Returns the placed discs that this rank needs, from the `given` ones. **Collective.**
+    /// Returns the placed discs that this rank needs, from all ranks' `given`. **Collective.**
     std::vector<Notice> gather(const std::vector<InputDisc>& given) const;
 
-    /// Makes the proposals of all ranks, by all threads, and lists those that this rank needs,
+    /// Makes all ranks' proposals, with all threads, and lists the proposals that this rank needs,
     /// together with the `updates` of other ranks. **Collective.**
     void propose(const Proposers& proposers, std::span<const Notice> updates, int n_threads,
                  RawVector<Notice>& concerning) const;
 
     /// Calls `visit(place)` for the position of a notice and for each of its images near the seam,
-    /// until it returns true. A grid puts positions beyond its ends into its last cells.
+    /// and stops when it returns true. A grid puts positions beyond its ends into its last cells.
     template <class Visit> bool for_images(const Notice& notice, const Visit& visit) const {
         if (visit(Point{notice.x, notice.y})) return true;
         if (!periods_.are_any()) return false;
@@ -163,8 +163,8 @@ public:
     }
 
 private:
-    /// The position of a disc in a region, for two numbers from 0 to 1. If a region covers a whole
-    /// period, discs may lie across the seam.
+    /// The position of a disc in a region, from two random numbers between 0 and 1. If a region
+    /// covers a whole period, discs may lie across the seam.
     Point place_in(const StartRegion& region, double radius, Point numbers) const {
         const auto [x_low, y_low] = turned(axis_, region.x_low, region.y_low);
         const auto [x_high, y_high] = turned(axis_, region.x_high, region.y_high);

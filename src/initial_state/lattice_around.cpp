@@ -17,7 +17,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double per_row = 0.8660254037844386; ///< the height of a row over a: sqrt(3) / 2
+constexpr double per_row = 0.8660254037844386; ///< height of a row over the spacing a: sqrt(3) / 2
 
 /// The free sites of a lattice of m rows.
 class FreeSites {
@@ -29,7 +29,7 @@ public:
           y0_(is_periodic_y_ ? 0 : height_ / (2 * per_row)),
           columns_(static_cast<std::uint64_t>(box_.x * per_row / height_)),
           width_(box_.x / static_cast<double>(columns_)),
-          // Half the spacing, less a share of 2^-30 of it, which exceeds the rounding of positions.
+          // Half the spacing, reduced by 2^-30 of it, which is more than the rounding of positions.
           clearance_(height_ / (2 * per_row) * (1 - 0x1p-30)),
           fixed_bodies_(box_, clearance_, scene.effects),
           own_(slab_of_rank(ranks.rank(), n_rows, ranks.size())), free_in_rows_(n_rows) {
@@ -44,8 +44,8 @@ public:
     }
     double clearance() const { return clearance_; }
 
-    /// Calls do_one(k, place) for each free site of the rank's rows; k counts the free sites of all
-    /// ranks.
+    /// Calls do_one(k, place) for each free site in the rank's rows; k numbers the free sites of
+    /// all ranks.
     template <class DoOne> void visit(const DoOne& do_one) const {
         const auto first = free_in_rows_.begin();
         std::uint64_t k = std::accumulate(first, first + static_cast<std::ptrdiff_t>(own_.begin),
@@ -56,8 +56,8 @@ public:
     }
 
 private:
-    /// Between walls m rows are higher than m row heights by twice this number, in row heights,
-    /// because the first and the last row are half a spacing from the walls.
+    /// Additional height at each of two walls, in row heights: m rows between walls fill m + 2
+    /// beside() row heights, because the outer rows are half a spacing from the walls.
     static double beside() { return 0.5 / per_row - 0.5; }
 
     Point site(std::uint64_t row, std::uint64_t column) const {
@@ -85,8 +85,8 @@ private:
     std::vector<std::uint64_t> free_in_rows_;
 };
 
-/// Finds the smallest number of rows with enough sites. It is even, because a period along y needs
-/// an even number.
+/// Finds the smallest number of rows with enough sites. The number is even, because a periodic box
+/// along y needs this.
 class RowSearch {
 public:
     RowSearch(const SceneParameters& scene, const Communicator& ranks)
@@ -108,13 +108,13 @@ public:
     }
 
 private:
-    /// Rows over two, as if the fixed bodies took no room.
+    /// Half the rows of a lattice without fixed bodies, less 10 %: the search begins with it.
     std::uint64_t first_guess() const {
         const double area = scene_.area() / static_cast<double>(scene_.n_discs),
                      height = std::sqrt(area * per_row);
         return std::min(most_, static_cast<std::uint64_t>(scene_.box.y / height / 2 * 0.9));
     }
-    /// The number of free sites; 0 if a disc is too large for a site.
+    /// The number of free sites in 2 `pairs` rows; 0 if discs are too large for the sites.
     std::uint64_t number(std::uint64_t pairs) const {
         const FreeSites sites(scene_, 2 * pairs, ranks_);
         return sites.clearance() > scene_.radius ? sites.number() : 0;
@@ -146,7 +146,7 @@ std::vector<InputDisc> lattice_around_fixed_bodies(const SceneParameters& scene,
         // Disc j takes site j n_sites / n, so that the n_sites - n empty sites are spread evenly.
         const std::uint64_t j = (k * n + n_sites - 1) / n_sites;
         if (j >= n || j * n_sites / n != k) return;
-        const DiscId id = j * stride % n; // no overflow, because ids are below 2^32
+        const DiscId id = j * stride % n; // cannot overflow, as ids are below 2^32
         const Point place = shaken(site, free_radius, scene.seed, id);
         discs.push_back({id, place.x, place.y, 0, 0});
     });

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A triangular lattice around fixed bodies, and in boxes that are no rectangles.
+// A triangular lattice around fixed bodies, and in boxes that are not rectangles.
 //
-// Rows lie along x. Of m rows the spacing a follows, and along x it is stretched so that whole
-// numbers of sites fill the box. A site counts if it is at least a / 2 from walls and fixed bodies,
-// so that each disc may be moved by a / 2 less its radius in any direction: no overlap, none
-// outside. The least m with enough sites is taken. Sites in excess stay empty, spread evenly.
+// Rows lie along x. The number m of rows gives the spacing a; along x, the lattice is stretched so
+// that whole numbers of sites fill the box. A site is used if it is at least a / 2 from walls and
+// fixed bodies, so each disc can be shifted by a / 2 less its radius without touching them. The
+// smallest m with enough sites is taken. Sites in excess stay empty, spread evenly.
 //
-// Sites are counted for some 20 values of m, each rank counting its share of the rows. Memory is
-// that of the discs.
+// Sites are counted for some 20 values of m; each rank counts in its share of the rows. Memory:
+// mainly the discs themselves.
 #pragma once
 
 #include <vector>
@@ -17,8 +17,8 @@
 
 namespace carrom {
 
-/// The scene's discs, shaken, in any distribution over the ranks. InputError on each rank if there
-/// are not enough sites. **Collective.**
+/// The scene's discs, shaken, in any distribution over the ranks. Throws InputError on every rank
+/// if there are not enough sites. **Collective.**
 std::vector<InputDisc> lattice_around_fixed_bodies(const SceneParameters& scene,
                                                    const Communicator& communicator);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The discs of the legacy generator, with exactly the same numbers as in the course program. It
-// draws with C's `rand` from a seed. All positions come first, x before y, uniform in [r, L-r], and
-// are drawn again if discs overlap. Then each disc gets its speed, uniform in L/8r .. L/4, and its
-// angle.
+// draws with C's `rand` from a seed. It first draws all positions, x before y, uniform in [r, L-r],
+// and repeats a draw if discs overlap. Then each disc gets its speed, uniform in L/8r .. L/4, and
+// its angle.
 //
-// `rand` is that of glibc (its reentrant random_r with 128 bytes of state). Sine and cosine are
-// those of the C library, which nothing else in a scene uses. One rank draws, because each number
-// depends on those before. A grid makes a draw O(1).
+// `rand` is glibc's function (its reentrant random_r with 128 bytes of state). Sine and cosine come
+// from the C library, which nothing else in a scene uses. One rank draws, because each number
+// depends on the numbers before. With a grid of cells each draw takes O(1).
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ public:
     LegacyRandom(const LegacyRandom&) = delete;
     LegacyRandom& operator=(const LegacyRandom&) = delete;
 
-    /// low + (high - low) * rand() / RAND_MAX; both ends can occur.
+    /// low + (high - low) * rand() / RAND_MAX; can be equal to `low` and to `high`.
     double uniform(double low, double high);
 
 private:
@@ -34,8 +34,8 @@ private:
     random_data data_{};
 };
 
-/// All positions by id; nothing if the box is so full that a bounded number of draws does not find
-/// them.
+/// All positions by id; nothing if the box is so full that a bounded number of draws is not
+/// enough.
 std::optional<std::vector<Point>> legacy_positions(const SceneParameters& scene,
                                                    LegacyRandom& random);
 

@@ -26,8 +26,8 @@ DiscReader::InParts on_threads(int n_threads) {
     };
 }
 
-/// The size of the scene's file of discs on rank 0, or 0 if it cannot be read in parts because it
-/// is missing or a pipe. **Collective.**
+/// The size of the scene's file of discs, found by rank 0, or 0 if the file is missing or a pipe
+/// and so cannot be read in parts. **Collective.**
 std::uint64_t bytes_of_file(const SceneParameters& scene, const Communicator& communicator) {
     std::uint64_t n_bytes = 0;
     if (communicator.is_root()) {
@@ -41,8 +41,8 @@ std::uint64_t bytes_of_file(const SceneParameters& scene, const Communicator& co
     return n_bytes;
 }
 
-/// Brings `file` to the first line of the rank's part. A line belongs to the part in which it
-/// begins, so the end of a line that begins before is skipped.
+/// Moves `file` to the first line of the rank's part. A line belongs to the part in which it
+/// begins, so the rest of a line from the part before is skipped.
 DiscReader::Part go_to_part(std::istream& file, std::uint64_t n_bytes,
                             const Communicator& communicator) {
     const auto [begin, end] = slab_of_rank(communicator.rank(), n_bytes, communicator.size());
@@ -71,7 +71,7 @@ std::optional<std::vector<InputDisc>> read_on_all(const SceneParameters& scene,
     const Slab share = share_of(scene, communicator);
     std::vector<InputDisc> discs, chunk;
     discs.reserve(share.size());
-    // Numbers of ranks that may have more lines, and that have found an error
+    // Numbers of ranks that may have more lines, and of ranks that have found an error
     std::uint64_t n_ranks[2] = {};
     do {
         const bool has_more = reader.read(chunk, discs_at_once, on_threads(n_threads));
@@ -85,9 +85,9 @@ std::optional<std::vector<InputDisc>> read_on_all(const SceneParameters& scene,
     return discs;
 }
 
-/// Reads the lines of `discs.from`. Each rank reads its share; the stream of rank 0 has all other
-/// lines behind its share. Returns nothing if a line has an error, or if not all ranks can read the
-/// file; the stream of rank 0 is then at its first line again. **Collective.**
+/// Reads the lines of `discs.from`. Each rank reads its share; rank 0's stream continues with all
+/// other lines. Returns nothing if a line has an error, or if some rank cannot read the file; rank
+/// 0's stream is then back at its first line. **Collective.**
 std::optional<std::vector<InputDisc>> read_shares(const SceneParameters& scene, std::istream* lines,
                                                   const Communicator& communicator, int n_threads) {
     if (communicator.any(lines == nullptr)) return std::nullopt;
@@ -108,7 +108,7 @@ std::optional<std::vector<InputDisc>> read_shares(const SceneParameters& scene, 
     return std::nullopt;
 }
 
-/// Rank 0 reads all lines and sends the discs to their ranks. **Collective.**
+/// Reads all lines on rank 0, which sends the discs to their ranks. **Collective.**
 std::vector<InputDisc> read_on_root(const SceneParameters& scene, std::istream* lines,
                                     const Communicator& communicator, int n_threads) {
     std::vector<InputDisc> discs, chunk;

@@ -11,10 +11,10 @@ namespace carrom {
 
 namespace {
 
-/// A gap that is narrower than a disc by at most this share counts as wide enough
+/// A gap counts as wide enough if it is narrower than a disc only by this share
 constexpr double rounding = 1e-9;
 
-/// A segment with a rounded border of a width; a disc is a segment without length.
+/// A segment with a rounded border of some width. A fixed disc is a segment of length 0.
 struct Body {
     Segment line;
     double radius = 0;

@@ -2,9 +2,9 @@
 // Finds the gaps between fixed bodies that are too narrow for a disc, and draws a line across each.
 //
 // If two fixed bodies are closer than the disc's diameter, every point of the line between their
-// nearest points is within a radius of one of them, so no disc's centre crosses it. So the lines
-// and the fixed bodies together divide the box into the regions that a disc cannot leave. A sweep
-// along x finds the pairs: their number is about that of fixed bodies times those in a strip.
+// nearest points is within a radius of one body, so no disc's centre crosses the line. So these
+// lines and the fixed bodies divide the box into regions that a disc cannot leave. A sweep along x
+// finds the pairs. Their number is about the number of bodies times the bodies in a strip.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@
 
 namespace carrom {
 
-/// Lines across the gaps between fixed bodies, and between them and walls at rest, through which no
-/// disc of this radius fits. Images of fixed bodies beyond periodic sides are included.
+/// Lines across the gaps through which no disc of this radius fits: between two fixed bodies, and
+/// between a fixed body and a wall at rest. Images beyond periodic sides are included.
 std::vector<Segment> lines_across_narrow_gaps(const SceneParameters& scene, double radius);
 
 } // namespace carrom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of random insertion that have been placed in a rank's strip or within the margin of it.
+// The discs that random insertion has placed in a rank's strip, or within the margin around it.
 #pragma once
 
 #include <optional>
@@ -29,17 +29,17 @@ public:
         if (refused_places_) map(first);
     }
 
-    /// Makes a map that rejects most proposals of discs of at least this radius with one read.
+    /// Makes a bit map that rejects most proposals of discs of at least this radius with one read.
     void map_refused(double smallest_radius) {
         refused_places_.emplace(box_.strip_low(), box_.strip_high(), box_.box().y, smallest_radius,
                                 box_.share());
         map(0);
     }
 
-    /// Drops the map, because smaller discs fit where it rejects. Call it before they are placed.
+    /// Deletes the map. Call this before smaller discs are placed, which fit where the map rejects.
     void forget_map() { refused_places_.reset(); }
 
-    /// Whether the disc of a proposal would overlap one of these discs, or a fixed body.
+    /// Whether a proposal's disc would overlap a placed disc or a fixed body.
     bool overlaps(const Notice& notice) const {
         if (refused_places_ && refused_places_->holds({notice.x, notice.y})) return true;
         if (box_.overlaps_fixed_body(notice)) return true;
@@ -53,7 +53,7 @@ public:
         if (refused_places_) refused_places_->prefetch({notice.x, notice.y});
     }
 
-    /// Moves the discs of the own strip out. Nothing can be added afterwards.
+    /// Returns the own strip's discs and removes them from here. Then no disc can be added.
     std::vector<InputDisc> take_own() {
         refused_places_.reset();
         grid_.reset();
@@ -78,7 +78,7 @@ private:
     const InsertionBox& box_;
     int n_threads_;
     RawVector<Notice> discs_;
-    std::optional<PointGrid> grid_;               ///< grid of these discs, until `take_own`
+    std::optional<PointGrid> grid_;               ///< grid of the placed discs, until `take_own`
     std::optional<RefusedPlaces> refused_places_; ///< made when most proposals are rejected
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points in square cells at least `reach` wide, so that all points within `reach` of a place lie in
-// its own cell or the eight around it. The cells are linked lists, so adding a point is O(1).
+// Points in square cells at least `reach` wide, so that all points within `reach` of a position lie
+// in its cell or in the eight cells around. The cells are linked lists, so adding a point is O(1).
 // Memory: 4 bytes for each point and each cell.
 //
-// The grid stores only the numbers of points; the caller keeps their coordinates and decides which
-// are near. Clearing takes time in proportion to the points, not to the cells.
+// The grid stores only the points' numbers. The caller keeps the coordinates and decides which
+// points are near. Clearing takes time for each point, not for each cell.
 #pragma once
 
 #include <algorithm>
@@ -21,20 +21,20 @@ namespace carrom {
 
 class PointGrid {
 public:
-    /// Covers [x_low, x_high] x [0, height], with about two cells for each of `n_points` unless
-    /// `reach` needs fewer.
+    /// Covers [x_low, x_high] x [0, height]. Cells are so large that there are about two for each
+    /// of `n_points`, or fewer if `reach` is larger.
     PointGrid(double x_low, double x_high, double height, double reach, double n_points)
         : x_low_(x_low) {
         const double width = std::max(x_high - x_low, reach);
-        // The margin is larger than the rounding in `column` and `row`.
+        // A cell is wider than `reach` by more than the rounding in `column` and `row`.
         const double cell = std::max(reach * (1 + 1e-9),
                                      std::sqrt(width * height / (2 * n_points + 1)));
         per_length_ = 1 / cell;
         columns_ = static_cast<std::uint64_t>(width * per_length_) + 1;
         rows_ = static_cast<std::uint64_t>(height * per_length_) + 1;
         heads_.assign(columns_ * rows_, none);
-        // Reserves all memory now, because a growing list exists twice for a while. Reserved memory
-        // that is not used takes no space.
+        // Reserves all memory now, because a list that grows is in memory twice for a while.
+        // Reserved memory takes no space before it is used.
         next_.reserve(static_cast<std::size_t>(1.1 * n_points) + 100);
     }
 
@@ -45,8 +45,8 @@ public:
         head = static_cast<std::uint32_t>(next_.size() - 1);
     }
 
-    /// Adds the points of `points` that have not been added yet; the first ones have. The order in
-    /// a cell's list depends on the threads.
+    /// Adds the points of `points` that follow those already added. The order in a cell's list
+    /// depends on the threads.
     template <class Points> void add_rest(const Points& points, int n_threads) {
         const std::size_t first = next_.size();
         next_.resize(points.size());

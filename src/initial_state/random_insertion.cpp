@@ -24,10 +24,10 @@ namespace carrom {
 namespace {
 
 constexpr std::uint64_t most_idle_rounds =
-    10000; ///< rounds without any placed disc, after which insertion starts again
+    10000; ///< insertion starts again after this many rounds that place no disc
 constexpr std::uint64_t most_starts = 10;
 
-/// Rounds in which a larger share of proposals is accepted are judged one by one.
+/// While a larger share of proposals is accepted, rounds are judged one by one.
 constexpr double most_placed_in_batches = 0.25;
 
 class Insertion {
@@ -45,7 +45,7 @@ public:
         for (const Species& one : scene_.effects.species) radii.push_back(one.radius);
         std::sort(radii.begin(), radii.end(), std::greater<>());
         radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
-        // The largest discs are placed first, because they find no room among smaller ones.
+        // The largest discs are placed first, because they would find no room among smaller ones.
         for (std::size_t first = 0, end = 0; first < radii.size(); first = end) {
             while (end < radii.size() && is_placed_with(radii[end], radii[first], radii.size()))
                 ++end;
@@ -55,14 +55,14 @@ public:
     }
 
 private:
-    /// If there are few radii, they are placed one after the other. Many radii would each need at
-    /// least a round, so similar ones are placed together.
+    /// Whether discs of this radius are placed together with the largest ones. Few radii are placed
+    /// one by one. Many radii are grouped, because each group needs a round or more.
     static bool is_placed_with(double radius, double largest, std::size_t n_radii) {
         constexpr std::size_t few_radii = 8;
         return radius == largest || (n_radii > few_radii && radius > 0.9 * largest);
     }
 
-    /// Returns false if the discs have jammed. **Collective.**
+    /// Places all discs of these radii; returns false if they have jammed. **Collective.**
     bool place_all_of(double smallest, double largest) {
         const auto [first, last] = slab_of_rank(communicator_.rank(), scene_.n_discs,
                                                 communicator_.size());
@@ -87,7 +87,7 @@ private:
         bool are_over() const { return n_left == 0 || n_idle >= most_idle_rounds; }
     };
 
-    /// Judges rounds as long as many proposals are accepted. **Collective.**
+    /// Judges rounds one by one while many proposals are accepted. **Collective.**
     void judge_one_by_one(Rounds& rounds) {
         proposal_grid_.emplace(box_.grid(box_.share()));
         for (double share_placed = 1;
@@ -100,12 +100,12 @@ private:
             share_placed = static_cast<double>(n_placed) / static_cast<double>(n_before);
         }
         proposal_grid_.reset();
-        propose({}); // sends only the last updates
+        propose({}); // no proposals; sends the last updates
         RawVector<Notice>().swap(proposals_);
     }
 
-    /// Judges many rounds at once. They need only one exchange, and give enough work for all
-    /// threads. **Collective.**
+    /// Judges many rounds together. They need only one exchange, and give all threads enough work.
+    /// **Collective.**
     void judge_in_batches(Rounds& rounds, double smallest) {
         if (rounds.are_over()) return;
         placed_.map_refused(smallest);
@@ -121,8 +121,8 @@ private:
         }
     }
 
-    /// The number of unplaced discs on all ranks. Throws StopRequested if a stop has been requested
-    /// for some time. **Collective.**
+    /// The number of unplaced discs on all ranks. Throws StopRequested if a requested stop is
+    /// overdue. **Collective.**
     std::uint64_t n_unplaced() const {
         std::array<std::uint64_t, 2> sums = {unplaced_.size(), is_stop_overdue() ? 1u : 0u};
         communicator_.sum(sums);
@@ -143,8 +143,8 @@ private:
         proposals_.erase(first_update, proposals_.end());
     }
 
-    /// Judges a round. Each thread takes a share of the proposals. It sorts them by x first, for
-    /// which neighbouring columns of cells are near in memory. The order does not affect the
+    /// Judges a round. Each thread takes a share of the proposals and first sorts it by x,
+    /// because neighbouring columns of cells are close in memory. The order does not affect the
     /// result.
     void judge() {
         const auto n_shares = static_cast<std::size_t>(n_threads_);
@@ -193,7 +193,7 @@ private:
         });
     }
 
-    /// Lists the placed discs that other ranks need, too.
+    /// Adds the placed discs that other ranks also need to the updates.
     void record_updates(std::span<const Notice> found) {
         for (const Notice& notice : found) {
             std::size_t n_concerned = 0;
@@ -209,7 +209,7 @@ private:
     PlacedDiscs placed_;
     /// A grid of proposals, while rounds are judged one by one
     std::optional<PointGrid> proposal_grid_;
-    std::vector<std::uint32_t> unplaced_; ///< each rank has other discs
+    std::vector<std::uint32_t> unplaced_; ///< ranks have different discs
     RawVector<Notice> proposals_;
     std::vector<Notice> updates_; ///< discs placed in the last round that other ranks need, too
 };

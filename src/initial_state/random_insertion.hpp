@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random positions without overlaps, found by all ranks together, the same for any number of them.
+// Finds random positions without overlaps on all ranks, the same for any number of ranks.
 //
-// In round k every disc without a position proposes one, which is a pure function of (seed, id, k),
-// uniform in [r, L-r]^2. The proposal is rejected if it overlaps a placed disc, or a proposal of
-// the same round with a lower id. Otherwise the disc is placed there. Proposals are judged by the
-// rank whose strip of x holds them, which also gets all proposals within a diameter of its strip.
-// At a packing of 0.3 some 150 rounds and 3 proposals a disc are needed, at 0.5 10,000 rounds and
-// 66 proposals. The cost explodes towards 0.54, where random insertion jams. So rounds are judged
-// in batches when free places are rare (insertion_batch.hpp), by all threads. Memory: about 75
+// In round k every disc without a position proposes one, uniform in [r, L-r]^2, as a function of
+// (seed, id, k) alone. The proposal is rejected if it overlaps a placed disc, or a proposal of the
+// same round with a lower id. Otherwise the disc is placed there. A proposal is judged by the rank
+// whose strip of x contains it; this rank also gets all proposals within a diameter of its strip. A
+// packing of 0.3 takes some 150 rounds and 3 proposals a disc, a packing of 0.5 10,000 rounds and
+// 66 proposals. The cost diverges towards 0.54, where random insertion jams. So when free places
+// are rare, rounds are judged in batches, by all threads (insertion_batch.hpp). Memory: about 75
 // bytes a disc, divided among the ranks.
 #pragma once
 
@@ -18,9 +18,9 @@
 
 namespace carrom {
 
-/// Returns the scene's discs with places and without velocities, each on the rank whose strip holds
-/// it. `given` are the discs that already have positions, because their groups have another
-/// generator. They may be in any distribution. Throws InputError on every rank if no arrangement is
+/// Returns the scene's discs with positions but without velocities, each on the rank whose strip
+/// contains it. `given` are the discs of groups with other generators, which already have
+/// positions; they are in any distribution. Throws InputError on every rank if no arrangement is
 /// found. **Collective.**
 std::vector<InputDisc> insert_at_random(const SceneParameters& scene,
                                         const Communicator& communicator, int n_threads = 1,

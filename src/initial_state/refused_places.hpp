@@ -18,9 +18,9 @@ namespace carrom {
 /// Squares in which every position is too close to a placed disc.
 class RefusedPlaces {
 public:
-    /// Covers [x_low, x_high] x [0, height] for discs of at least this radius. Squares are an
-    /// eighth of their diameter wide, or wider, so that there are at most 256 for each of
-    /// `n_discs`: 32 bytes a disc.
+    /// Covers [x_low, x_high] x [0, height] for discs of at least this radius. Squares have an
+    /// eighth of the smallest diameter as width, or more if there would be over 256 squares for
+    /// each of `n_discs`; the map takes at most 32 bytes a disc.
     RefusedPlaces(double x_low, double x_high, double height, double smallest_radius,
                   double n_discs)
         : x_low_(x_low), smallest_radius_(smallest_radius) {
@@ -34,8 +34,8 @@ public:
         words_.assign(static_cast<std::size_t>(n_columns_) * words_per_column_, 0);
     }
 
-    /// Marks the squares inside the circle around a placed disc in which no centre may lie. Threads
-    /// may call it at once.
+    /// Marks the squares inside the circle around a placed disc in which no other centre may lie.
+    /// Several threads may call this at the same time.
     void add(Point place, double radius) {
         const double reach = (radius + smallest_radius_) * per_length_ * (1 - margin);
         const double x = (place.x - x_low_) * per_length_, y = place.y * per_length_;
@@ -53,21 +53,21 @@ public:
         }
     }
 
-    /// Whether a disc of at least the smallest radius overlaps a placed disc at this position. If
-    /// false, nothing is known.
+    /// Returns true only if a disc of at least the smallest radius overlaps a placed disc at this
+    /// position. If false, it may overlap or not.
     bool holds(Point place) const {
         const std::uint64_t* const word = word_of(place);
         return word && (*word >> (row_of(place) % 64) & 1) != 0;
     }
-    /// Prefetches the memory that `holds` reads, because positions are random. GCC drops a call
-    /// that only prefetches, unless it is inlined before.
+    /// Prefetches the memory that `holds` reads, because positions are random. It must be inlined:
+    /// GCC otherwise drops the call, because it only prefetches.
     [[gnu::always_inline]] void prefetch(Point place) const {
         if (const std::uint64_t* const word = word_of(place)) __builtin_prefetch(word);
     }
 
 private:
-    /// In edges of squares. It exceeds the rounding of a position, because a box has fewer than
-    /// 10^7 squares along an axis.
+    /// In widths of squares. It is larger than the rounding of a position, because a box has fewer
+    /// than 10^7 squares along an axis.
     static constexpr double margin = 1e-7;
 
     // Without std::floor, which is a function call on baseline processors.
@@ -105,8 +105,8 @@ private:
     std::vector<std::uint64_t> words_;
 };
 
-/// The surroundings of a few points, in a hash table. A position near one of them is always found;
-/// few others are.
+/// The surroundings of a few points, in a hash table. Positions near one of the points are always
+/// found; of other positions only a few are.
 class NearFew {
 public:
     NearFew(std::size_t n_points, double reach) : per_length_(1 / (reach * (1 + 1e-9))) {
@@ -127,8 +127,8 @@ public:
     }
 
 private:
-    /// Without std::floor. Points are at most one reach outside of the box, so one offset is
-    /// enough.
+    /// The number of a cell, without std::floor. Points lie at most one reach outside of the box,
+    /// so one positive offset is enough.
     std::int64_t cell(double length) const {
         return static_cast<std::int64_t>(length * per_length_ + 2);
     }

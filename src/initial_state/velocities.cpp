@@ -18,7 +18,7 @@ Velocity drawn_velocity(const SceneParameters& scene, DiscId id) {
     const double speed = scene.velocities == VelocityKind::maxwell
                              ? std::sqrt(random_exponential(random))
                              : std::numbers::sqrt3 * random.uniform();
-    // A box that is taller than wide gets the same gas as the box turned on its side.
+    // Turns the velocity in a box that is taller than wide, so that it gets the same gas, turned.
     const auto [vx, vy] = turned(longer_axis(scene.box), speed * direction.x, speed * direction.y);
     return {vx, vy};
 }
@@ -99,7 +99,7 @@ private:
         return ranks_.max(largest);
     }
 
-    /// Sums a term over all discs of all ranks; `largest` bounds the size of a term.
+    /// Sums a term over all discs of all ranks; no term may exceed `largest` in size.
     template <class Term>
     double sum_over(const std::vector<InputDisc>& discs, double largest, const Term& term) const {
         if (largest == 0) return 0;
@@ -130,8 +130,8 @@ void subtract_drift(const SceneParameters& scene, std::vector<InputDisc>& discs,
     }
 }
 
-/// The factor for speeds. With a temperature, discs have been drawn with speeds proportional to
-/// sqrt(heaviest / m), so that all species have the same kT on average.
+/// The factor by which drawn speeds are multiplied. With a temperature, speeds are drawn in
+/// proportion to sqrt(heaviest / m), so that all species have the same kT on average.
 double scale_of(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                 const Motion& motion) {
     const double root = std::sqrt(motion.mean_square(discs));

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t longest_path = 4096;
 constexpr double largest_chunk = 256 << 20;
-constexpr double largest_ratio = 1100; ///< deflate makes at most 1032 bytes of one byte
+constexpr double largest_ratio = 1100; ///< deflate expands a byte to at most 1032 bytes
 
 bool is_known_type(hid_t type) {
     const H5T_class_t kind = H5Tget_class(type);
@@ -29,8 +29,8 @@ bool is_known_type(hid_t type) {
            (kind == H5T_STRING && H5Tis_variable_str(type) == 0);
 }
 
-/// Checks the segments beside a recording, which hold its numbers: each must be as large as its
-/// rows need.
+/// Checks the segments of a recording, the files that hold its numbers: each must be as large as
+/// its rows need.
 void check_segments_of(const Dataset& dataset, hid_t creation, const std::string& name,
                        std::size_t bytes_per_number) {
     std::size_t n_parts = 0;
@@ -57,7 +57,7 @@ void check_segments_of(const Dataset& dataset, hid_t creation, const std::string
         throw FileError(name + " has other parts than this program writes");
 }
 
-/// HDF5 allocates a whole chunk, even if little of it is read.
+/// Limits the size of chunks: HDF5 allocates a whole chunk even if little of it is read.
 void check_chunk_of(hid_t creation, const std::string& name, std::size_t bytes_per_number) {
     std::array<hsize_t, H5S_MAX_RANK> sizes{};
     const int rank = checked(H5Pget_chunk(creation, H5S_MAX_RANK, sizes.data()), name);
@@ -66,10 +66,10 @@ void check_chunk_of(hid_t creation, const std::string& name, std::size_t bytes_p
     if (bytes > largest_chunk) throw FileError(name + " has larger chunks than 256 MiB");
 }
 
-/// Carrom's files have some dozen links, and a file of tables has one for each column.
+/// Upper limits: files have some dozen links, and files of tables have one for each column.
 constexpr std::size_t most_objects = 100000, deepest_group = 16;
 
-/// Returns the result of a call that fails only for damaged files.
+/// Returns the result of a call. If the call has failed, reports that the file is damaged.
 template <class Result> Result sound(Result result, const std::string& name) {
     return checked(result, "is damaged: " + name);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares a file's description of a data set with the one that this program writes, before any
-// number of it is read. Before that a child process has tested that HDF5 does not crash on the file
-// (child_process.hpp).
+// Compares the structure of a file's data set with the structure that this program writes, before
+// any of its numbers is read. A child process has tested beforehand that HDF5 does not crash on the
+// file (child_process.hpp).
 #pragma once
 
 #include <optional>
@@ -15,18 +15,18 @@ namespace carrom::h5 {
 /// The lengths that a data set must have along its axes; an empty value allows any length.
 using Shape = std::vector<std::optional<hsize_t>>;
 
-/// Opens a data set for reading. It must have that shape, if one is given, and hold numbers or a
-/// text of fixed length. All of it must lie in this file, or in segments in the folder of this file
-/// that are large enough. Throws FileError otherwise.
+/// Opens a data set for reading. It must have the given shape, if there is one, and contain numbers
+/// or a text of fixed length. Its bytes must lie in this file, or in large enough segments in this
+/// file's folder. Throws FileError otherwise.
 Dataset open_checked(hid_t parent, const std::string& name,
                      const std::optional<Shape>& shape = std::nullopt);
 
-/// The name of a link of a group, by its place in the order of names. Throws FileError.
+/// Returns the name of link `number` of a group, in alphabetical order. Throws FileError.
 std::string name_of_link(hid_t group, hsize_t number);
 
 /// Throws FileError unless all numbers of a file lie in it, or in plain files below its folder that
-/// name no further files. Without this test HDF5 would open any file that is named there, wait for
-/// a pipe, and return the bytes of any file as numbers.
+/// name no further files. Otherwise HDF5 would open any file that is named there, wait for a pipe,
+/// or return the bytes of any file as numbers.
 void refuse_other_files(hid_t file, const std::string& path);
 
 /// The number of entries of an ascending column that are <= `last`.

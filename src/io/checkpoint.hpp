@@ -2,15 +2,15 @@
 // A run's state at the end of a step, in one HDF5 file from which any number of ranks can continue
 // with the same bits.
 //
-// Discs are in the order of their ids, so the file does not depend on the ranks that wrote it. The
-// exact stored state is in /carrom/discs, column by column. The description of the run is in
-// /carrom/run. The same discs in the form that other programs read are in /particles/discs (H5MD;
-// positions at the time of the step, in single precision). Checksums of all bytes are in
-// /carrom/checksums (checksums.hpp).
+// Discs are in the order of their ids, so the file does not depend on the number of ranks that
+// wrote it. /carrom/discs has the exact stored state, column by column, and /carrom/run the
+// description of the run. /particles/discs has the same discs in the form that other programs read
+// (H5MD; positions at the time of the step, in single precision). /carrom/checksums has checksums
+// of all bytes (checksums.hpp).
 //
 // Rank 0 makes the file and reserves its space on disk. Then each rank writes its share of the ids
-// through HDF5 and MPI-IO, and reads it in the same way. Price: 80 bytes a disc to disk; each disc
-// in another rank's share is sent once; 8 bytes a disc of memory, and 80 more for collective
+// through HDF5 and MPI-IO; reading works in the same way. Cost: 80 bytes a disc on disk; each disc
+// of another rank's share is sent once; 8 bytes a disc of memory, and 80 more for collective
 // transfers. A column beside the states takes 8 bytes a disc on disk and 24 of memory.
 #pragma once
 
@@ -56,14 +56,14 @@ struct CheckpointHeader {
     Frame frame; ///< the frame of the discs' coordinates; in the file only if it moves
     std::vector<Species> species; ///< stored only if species come from a file of discs: the
                                   ///< scene's text does not contain them
-    SideColumnSet columns;        ///< columns beside the states; the state hash includes them
+    SideColumnSet columns;        ///< columns in addition to the states; part of the state hash
     RecordedSystem shown;         ///< H5MD metadata for other programs; Carrom does not read it
 
     Box box() const { return {box_size, box_height}; }
     void set_box(const Box& box) { box_size = box.x, box_height = box.y; }
 
-    /// Micro-steps since the last sync, or the frame's clock at that time. The discs'
-    /// own times belong to it.
+    /// The clock on which the discs' own times are measured: micro-steps since the last sync, or
+    /// the clock of a moving frame.
     double clock() const {
         return frame.is_moving ? frame.clock : static_cast<double>(micro_steps_done % sync_every);
     }
@@ -75,14 +75,14 @@ using DifferenceFrom = std::function<std::string(const CheckpointHeader& there)>
 
 /// Settings for writing the numbers of discs.
 struct WriteSettings {
-    int n_threads = 1;          ///< number of threads that pack; another one writes
-    bool is_collective = false; ///< MPI-IO chooses a few ranks that write for all (aggregators)
+    int n_threads = 1;          ///< number of threads that pack; a further thread writes
+    bool is_collective = false; ///< whether MPI-IO chooses ranks that write for all (aggregators)
 };
 
-/// Writes `discs`, in any distribution, as a whole file or not at all: it is written under another
-/// name, synced to disk, then renamed. `columns` run along the discs, if the header has some. Fills
-/// in the header's counters and hash. If it fails on any rank, every rank throws CollectiveError,
-/// code 4, and an older file of that name is unchanged. **Collective.**
+/// Writes `discs`, in any distribution, as a whole file or not at all: under another name, then
+/// synced to disk and renamed. `columns` are in the order of `discs`, if the header has any. Fills
+/// in the header's counters and hash. If any rank fails, every rank throws CollectiveError, code 4,
+/// and an older file of that name is unchanged. **Collective.**
 void write_checkpoint(const std::string& path, CheckpointHeader header,
                       std::span<const DiscState> discs, const Communicator& communicator,
                       const WriteSettings& settings = {}, const StoredSamples& samples = {},

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char *box_height_name = "box_height", *scene_path = "/carrom/scene";
 
-/// Visits the frame, if it moves.
+/// Visits the values of a frame that moves.
 template <class SomeFrame, class Visit> void visit_frame(SomeFrame& frame, const Visit& visit) {
     visit("frame_x", frame.x);
     visit("frame_y", frame.y);
@@ -28,7 +28,7 @@ template <class SomeFrame, class Visit> void visit_periods(SomeFrame& frame, con
     visit("period_y", frame.periods.y);
 }
 
-/// Visits the images, if they move.
+/// Visits the values of images that move.
 template <class SomeFrame, class Visit> void visit_images(SomeFrame& frame, const Visit& visit) {
     visit("image_offset", frame.periods.offset);
     visit("image_speed", frame.periods.speed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contents of a checkpoint beside the columns of discs (disc_columns.hpp), in
-// tables that writer, reader and comparison loop over.
+// The contents of a checkpoint except the columns of discs (disc_columns.hpp), as tables over which
+// writer, reader and comparison loop.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace carrom {
 
 inline constexpr const char* run_path = "/carrom/run";
 inline constexpr const char* species_path = "/carrom/species";
-/// The number in /carrom/format. Formats 1 and 2 began with a text before HDF5's signature.
+/// The number in /carrom/format. Formats 1 and 2 began with a text, before HDF5's signature.
 inline constexpr std::int64_t checkpoint_format = 3;
 inline constexpr const char* format_path = "/carrom/format";
 
@@ -28,8 +28,8 @@ inline std::string path_of(SideColumn column) {
     return std::string("/carrom/discs/") + info_of(column).name;
 }
 
-/// Calls `visit(name, value)` for each dataset of /carrom/run that all checkpoints have. Each holds
-/// one value.
+/// Calls `visit(name, value)` for each dataset of /carrom/run that all checkpoints have. Each
+/// dataset contains one value.
 template <class Header, class Visit> void visit_header(Header& header, const Visit& visit) {
     visit("program_version", header.program_version);
     visit("scene_name", header.scene_name);
@@ -55,7 +55,7 @@ struct SampleColumn {
     const char* path;
     double FirstPlace::* field;
     bool StoredSamples::* is_there;
-    double most; ///< the largest valid value; in edges of the box if `in_sides`
+    double most; ///< the largest valid value; in box edges if `in_sides`
     bool in_sides = false;
 };
 inline constexpr double largest_double = std::numeric_limits<double>::max();
@@ -79,20 +79,20 @@ hid_t type_of(const StateColumn& column);
 void write_header(hid_t group, const CheckpointHeader& header);
 /// Reads a header without species. Throws FileError if something is missing or of another kind.
 CheckpointHeader read_header(hid_t file);
-/// Species as one column each for counts, radii and masses; nothing if there are none. Both
-/// functions throw FileError.
+/// Write and read species as one column each for counts, radii and masses, or nothing if there are
+/// none. Both throw FileError.
 void write_species(hid_t file, const std::string& path, const std::vector<Species>& species);
 std::vector<Species> read_species(hid_t file, const std::string& path, std::uint64_t n_discs);
 
-/// Writes the description of a recording's run, so that no other run goes on with the
-/// recording: the scene's text as in checkpoints, and the species of a file of discs.
-/// Writes nothing if `run` has no text. Throws FileError.
+/// Writes the description of a recording's run, so that no other run can continue the recording:
+/// the scene's text as in checkpoints, and the species from a file of discs. Writes nothing if
+/// `run` has no text. Throws FileError.
 void write_recorded_run(hid_t file, const CheckpointHeader& run);
 /// Throws FileError if the file describes its run and `difference_from` finds a difference.
 void check_recorded_run(hid_t file, const DifferenceFrom& difference_from);
 
-/// Rows that are packed or unpacked at a time: 1 MiB of discs, so that they stay in
-/// the L2 cache.
+/// Number of rows that are packed or unpacked at a time: 1 MiB of discs, which stays in the L2
+/// cache.
 inline constexpr std::uint64_t rows_per_piece = 1 << 14;
 
 } // namespace carrom

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The checkpoints of a run in their folder: names, the newest one, and those to remove.
 //
-// These are calls of one rank, on a folder that all ranks see.
+// One rank calls these functions, on a folder that all ranks can access.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace carrom {
 
-/// The path, such as "folder/checkpoint-000000001000.h5".
+/// The path of a step's checkpoint, such as "folder/checkpoint-000000001000.h5".
 std::string checkpoint_path(const std::string& folder, std::int64_t step);
 
 struct FoundFile {
@@ -24,10 +24,10 @@ struct FoundFile {
 /// Throws FileError if the folder cannot be listed, because then its contents are unknown.
 std::vector<FoundFile> find_checkpoints(const std::string& folder);
 
-/// Whether the path could come from `checkpoint_path`.
+/// Whether the path has the form that `checkpoint_path` returns.
 bool is_named_as_checkpoint(const std::string& path);
 
-/// Makes the folder if there is none. Returns the problem if files cannot be written there.
+/// Makes the folder if it does not exist. Returns the problem if it is not writable.
 WriteProblem write_problem_of_folder(const std::string& folder);
 
 } // namespace carrom

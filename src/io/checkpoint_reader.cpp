@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rank 0 first reads a file's metadata in a child process, because HDF5 may crash on forged
-// metadata. Then it checks all bytes except the numbers of discs by their checksum, so that HDF5 on
-// all ranks uses only checked bytes. Each rank checks and reads its share of the numbers by H5Dread
-// through MPI-IO.
+// First rank 0 reads a file's metadata in a child process, because HDF5 may crash on forged
+// metadata. Then rank 0 checks all bytes except the numbers of discs by a checksum, so that HDF5
+// uses only checked bytes on all ranks. Each rank checks and reads its share of the numbers by
+// H5Dread through MPI-IO.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,8 +34,8 @@ constexpr const char* stop_path = "/carrom/stop";
 constexpr const char* effects_path = "/carrom/effects";
 constexpr const char* sums_path = "/carrom/measurements/sums";
 
-/// Throws for headers that this program never writes. A file with such a header and right checksums
-/// was made by another program.
+/// Throws if this program never writes such a header. If its checksums are right, another program
+/// has made the file.
 void check_header(const CheckpointHeader& header) {
     const Frame& frame = header.frame;
     const std::array finite = {frame.x,
@@ -63,7 +63,7 @@ void check_header(const CheckpointHeader& header) {
 struct Contents {
     CheckpointHeader header;
     Checksums sums;
-    StoredSamples samples; ///< the samples without the discs' first places
+    StoredSamples samples; ///< the samples, without the discs' first positions
 };
 
 bool is_listed(const Checksums& sums, const std::string& path) {
@@ -102,7 +102,7 @@ void check_disc_data(const Contents& contents) {
             throw FileError(data.path + " has not got as many discs as the file says");
 }
 
-/// Files of version 0.1 began with a text, which HDF5 accepts.
+/// Rejects files of version 0.1. They begin with a text, which HDF5 accepts before its signature.
 void refuse_old_format(const std::string& path) {
     constexpr std::string_view family = "carrom checkpoint, format ";
     std::string front(family.size(), '\0');
@@ -139,12 +139,12 @@ Contents contents_of(const std::string& path) {
     return contents;
 }
 
-/// Checks and reads the contents. If HDF5 reports an error, a text is added to it.
+/// Checks and reads the contents. Errors of HDF5 become "is damaged" followed by HDF5's text.
 Contents inspected_contents(const std::string& path) {
     try {
         return contents_of(path);
     } catch (const MachineError&) {
-        throw; // the file may be undamaged
+        throw; // a machine error: the file may be undamaged
     } catch (const FileError& error) {
         const std::string text = error.what();
         throw FileError(text.starts_with("is ") ? text : "is damaged: " + text);
@@ -200,7 +200,7 @@ public:
         check_numbers();
     }
 
-    /// This rank's rows of a data set, 8 bytes each. Not collective; throws FileError.
+    /// Reads this rank's rows of a data set, 8 bytes each. Not collective; throws FileError.
     template <class Number>
     void read(const std::string& path, std::span<Number> numbers, std::uint64_t begin,
               hid_t type) const {
@@ -246,7 +246,7 @@ private:
     std::vector<h5::Dataset> datasets_;
 };
 
-/// Unpacks some discs at a time, so that they stay in cache. Throws FileError.
+/// Unpacks discs piece by piece, so that each piece stays in cache. Throws FileError.
 DiscStates read_discs(const WholeFile& file, const Slab& share) {
     DiscStates discs(share.size(), DiscState{});
     std::vector<std::uint64_t> numbers(std::min(rows_per_piece, share.size()));
@@ -301,7 +301,7 @@ std::optional<CheckpointHeader> check_damage(const std::string& path,
     on_root(communicator, path, ExitCode::bad_input, [&] {
         refuse_old_format(path);
         inspect_in_child_first([&] {
-            // Checked here, before HDF5 opens segments
+            // Checks the index here, before HDF5 opens the segments that it names
             static_cast<void>(read_checked_index(path, false));
             is_checkpoint = h5::has(h5::open_file(path, h5::Access::read).id(), run_path) ? 1 : 0;
         });

@@ -20,7 +20,7 @@ namespace {
 constexpr const char *radius_path = "/particles/discs/radius",
                      *species_number_path = "/particles/discs/species";
 
-/// The ids before which species end.
+/// For each species, the id after its last disc.
 std::vector<DiscId> ends_of(const std::vector<Species>& species) {
     std::vector<DiscId> ends;
     for (const Species& one : species) ends.push_back((ends.empty() ? 0 : ends.back()) + one.count);
@@ -31,7 +31,7 @@ void write_unit(hid_t parent, const char* name, const std::string& unit) {
     h5md::write_unit(h5::open_checked(parent, name).id(), unit);
 }
 
-/// Makes a group of one frame with its step and time; the caller adds `value`.
+/// Makes a group for a single frame, with its step and time; the caller adds `value`.
 h5::Group create_frame(hid_t parent, const char* name, const CheckpointHeader& header) {
     h5::Group group = h5::create_group(parent, name);
     h5::write_column(group.id(), "step", std::array{header.step});
@@ -122,7 +122,7 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
             return vector_of(shown.vx * k, shown.vy * k);
         });
     if (!header.shown.species.empty()) {
-        // Searches the list of species, because a table of all discs takes memory.
+        // Searches the list of species, because a table for all discs would take memory.
         const auto number_of = [ends = ends_of(header.shown.species)](const DiscState& disc) {
             return std::upper_bound(ends.begin(), ends.end(), disc.id) - ends.begin();
         };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Creates a checkpoint's HDF5 file with its whole structure but without its numbers.
+// Creates a checkpoint's HDF5 file with its whole structure, but without the discs' numbers.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct DiscTarget {
     std::string path;
     hid_t type; ///< type of the numbers
     std::uint64_t bytes_per_row = 0;
-    std::string unit; ///< unit for other programs; empty if they do not read the data set
+    std::string unit; ///< unit, for other programs; empty if they do not read this data set
     std::function<void(std::span<const DiscState>, std::byte*)> put;
 };
 
@@ -36,23 +36,23 @@ struct SideOfPieces {
     }
 };
 
-/// The data sets of discs that a checkpoint has. `samples` and `columns` must outlive
-/// them.
+/// The data sets of discs in a checkpoint. `samples` and `columns` must outlive the
+/// result.
 std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples,
                                      const SideOfPieces& columns);
 
-/// Sums over a state that are complete only after all discs. Each is a pair of words, and threads
-/// and ranks may add these in any order. The first has the collisions of discs with walls (`low`)
-/// and with discs (`high`; a pair counts twice). Then come the state's hash and the checksums.
+/// Sums over a state that are complete only after all discs. Each is a pair of words; threads and
+/// ranks may add them in any order. The first sum counts collisions of discs with walls (`low`) and
+/// with discs (`high`; a pair counts twice). Then come the state's hash and the checksums.
 using StateSums = std::vector<StateHash>;
 inline constexpr std::size_t place_of_collisions = 0, place_of_hash = 1, first_checksum = 2;
 
-/// Makes the file. The header's counters and hash, and all checksums, are filled in
-/// later. Called on one rank; throws FileError.
+/// Makes the file. The header's counters and hash, and all checksums, are written later by
+/// `complete`. Called on one rank; throws FileError.
 void create_structure(const std::string& path, CheckpointHeader header,
                       const StoredSamples& samples, const std::vector<DiscTarget>& targets);
 
-/// Fills in the counters, the hash and the checksums, last the checksum of all other bytes, and
+/// Writes the counters, the hash and the checksums, and last the checksum of all other bytes. Then
 /// syncs the file to disk. Called on one rank; throws FileError.
 void complete(const std::string& path, const StateSums& sums);
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All ranks write the numbers of discs (checkpoint.hpp). The places of data sets are fixed, so no
-// write changes HDF5's metadata. A rank's pieces begin at pages of their own, because caches of
-// different nodes are not coherent.
+// All ranks write the numbers of discs (checkpoint.hpp). The places of data sets in the file are
+// fixed, so writing never changes HDF5's metadata. Each rank's pieces begin at a page boundary,
+// because caches of different nodes are not coherent.
 //
-// For independent transfers rank 0 alone opens the file by HDF5, when it makes and completes it.
-// HDF5 reports where the numbers are in the file, and ranks write them there. So HDF5's mark of an
-// open file is written by one rank, and no call waits for another rank: each rank detects its own
+// For independent transfers only rank 0 opens the file by HDF5, to make and to complete it. HDF5
+// reports where the numbers are in the file, and ranks write them there. So only one rank writes
+// HDF5's mark of an open file, and no call waits for another rank: each rank detects its own
 // failure, and then all agree. With one handle for all ranks, HDF5 1.10 waits for ever if rank 0
-// cannot write that mark when all close the file. If there are many ranks, some of them write for
-// all (most_writers), and each rank sends discs to each writer.
+// cannot write that mark when all close the file. If there are many ranks, some of them
+// (most_writers) write for all, and each rank sends discs to each writer.
 //
-// Collective transfers need one handle for all ranks. A rank that fails leaves the others waiting
-// inside HDF5; then `agree`, or a deadline for closing, ends the run with the same exit code.
+// Collective transfers need one handle for all ranks. If one rank fails, the others wait inside
+// HDF5; then `agree`, or a deadline for closing, ends the run with the same exit code.
 #include <algorithm>
 #include <atomic>
 #include <csignal>
@@ -70,10 +70,10 @@ struct Batch {
     std::vector<std::vector<std::byte>> buffers;
 };
 
-/// This rank's access to the file. After the first failure, which it stores, it writes nothing.
+/// This rank's access to the file. It stores its first failure, and writes nothing afterwards.
 class RankWriter {
 public:
-    /// A rank that is not a writer opens nothing. **Collective.**
+    /// A rank that is not a writer opens no file. **Collective.**
     RankWriter(const std::string& path, const std::vector<DiscTarget>& targets, bool is_collective,
                bool is_writer, const Communicator& communicator)
         : path_(path), targets_(targets), communicator_(communicator),
@@ -89,7 +89,7 @@ public:
         });
     }
 
-    /// Not collective, but only the thread that may call MPI may call it.
+    /// Writes a batch. Not collective, but must be called by the thread that may call MPI.
     void write(const Batch& batch) {
         if (!failure_.empty()) return;
         try {
@@ -102,8 +102,8 @@ public:
         }
     }
 
-    /// Writes all ranks' batches together. A rank that fails leaves HDF5's collective write before
-    /// the others, which then wait for it without end, until `agree` ends the run. **Collective.**
+    /// Writes all ranks' batches together. If a rank fails, it leaves HDF5's collective write, and
+    /// the others wait in it until `agree` ends the run. **Collective.**
     void write_together(const Batch& batch) {
         for (std::size_t k = 0; k < targets_.size(); ++k)
             on_all_ranks([&] {
@@ -134,7 +134,7 @@ private:
     template <class Act> void on_all_ranks(const Act& act) {
         on_all(communicator_, path_, ExitCode::output_failure, act);
     }
-    /// Where the bytes of each target begin in the file. **Collective.**
+    /// Finds where the bytes of each target begin in the file. **Collective.**
     std::vector<std::uint64_t> find_places() const {
         std::vector<std::uint64_t> places;
         on_root(communicator_, path_, ExitCode::output_failure, [&] {
@@ -154,7 +154,7 @@ private:
     std::string path_;
     const std::vector<DiscTarget>& targets_;
     const Communicator& communicator_;
-    std::vector<std::uint64_t> places_; ///< the place of this rank's bytes, for each target
+    std::vector<std::uint64_t> places_; ///< for each target, where its bytes begin in the file
     std::optional<Descriptor> bytes_;
     h5::SharedFile file_; ///< the file of collective transfers, with its data sets
     std::vector<h5::Dataset> datasets_;
@@ -172,8 +172,8 @@ void add(std::span<const DiscState> discs, const SideOfPieces& side, StateSums& 
     });
 }
 
-/// Converts a piece to the targets' bytes, and appends them to the batch. Threads share the blocks.
-/// Meanwhile this thread, the only one that may call MPI, calls `first_of_all`. Waiting threads
+/// Converts a piece to the targets' bytes and appends them to the batch; threads share this work.
+/// Meanwhile this thread, the only one that may call MPI, calls `first_of_all`. Threads that wait
 /// sleep, because ranks may share cores.
 template <class Act>
 void pack(std::span<const DiscState> piece, std::uint64_t first, const SideOfPieces& side,
@@ -210,7 +210,7 @@ void pack(std::span<const DiscState> piece, std::uint64_t first, const SideOfPie
     std::vector<std::jthread> threads; // joined at the end
     try {
         for (int k = 0; k < n_threads; ++k) threads.emplace_back(pack_blocks);
-        // no more threads can start, so the running ones do all work
+        // no further thread can start, so the running threads do all the work
     } catch (const std::system_error&) {
     }
     first_of_all();
@@ -243,8 +243,8 @@ SideOfPieces in_pieces(std::span<const DiscState> discs, const SideColumnSet& wa
     return mine;
 }
 
-/// Fills the data sets with the ranks' pieces. Each piece is written while the next one is packed;
-/// collective transfers come at the end instead, one for each data set. **Collective.**
+/// Writes the ranks' pieces to the data sets. Each piece is written while the next one is packed.
+/// Collective transfers instead come at the end, one for each data set. **Collective.**
 StateSums write_discs(const std::string& path, const std::vector<DiscTarget>& targets,
                       std::span<const DiscState> discs, const SideOfPieces& side,
                       std::uint64_t n_discs, const WriteSettings& settings, int n_writers,
@@ -299,7 +299,7 @@ void write_checkpoint(const std::string& path, CheckpointHeader header,
         create_structure(partial.path(), header, samples, targets);
         reserve(partial.path());
     });
-    // Numbers beside the discs are distributed over the ranks, by pieces of ids.
+    // Numbers in addition to the states are distributed over the ranks, by pieces of ids.
     const bool have_numbers = header.columns != SideColumnSet{} || samples.have_first_places ||
                               samples.have_lengths || samples.have_velocities ||
                               samples.have_images;

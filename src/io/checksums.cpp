@@ -38,7 +38,7 @@ std::string line(const StateHash& hash, std::string_view name) {
     return fmt::format("{}{}{}\n", to_string(hash), blanks, name);
 }
 
-/// Accepts only the text that would be written, so that each set of sums has exactly one text.
+/// Accepts only texts that this program writes, so that each set of sums has exactly one text.
 Checksums parsed(const std::string& text) {
     Checksums sums;
     std::istringstream lines(text);
@@ -144,7 +144,7 @@ bool has_traces_of_checkpoint(const std::string& path) {
         for (const std::string& trace : traces)
             if (found.find(trace) != std::string_view::npos) return true;
         if (n < text.size()) return false;
-        place += n - longest; // a trace of the mark may continue after the end of these bytes
+        place += n - longest; // keeps the end, where a trace may begin
     }
 }
 

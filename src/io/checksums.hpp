@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checksums of a checkpoint, which detect every flipped byte.
 //
-// They are stored in the file as a text, /carrom/checksums, with lines like those of sha256sum: one
-// for each data set of discs, one for "all other bytes", one for "the lines above".
+// The file contains a text with them, /carrom/checksums, whose lines are like those of sha256sum:
+// one for each data set of discs, one for "all other bytes", and one for "the lines above".
 //
-// A data set's checksum is the sum, modulo 2^64 in each half, of the XXH3-128 of its blocks of 1024
-// rows, each with its number as seed. The order of a sum does not matter, so threads and ranks hash
-// their shares at the same time. The second last line is the XXH3-128 of the file without those
-// data sets and without this text. HDF5 reports where they are in the file.
+// A data set's checksum is a sum over blocks of 1024 rows, modulo 2^64 in each half. Each term is
+// the XXH3-128 of a block, with the block's number as seed. A sum does not depend on the order, so
+// threads and ranks hash their shares at the same time. The second last line is the XXH3-128 of the
+// file without these data sets and this text. HDF5 reports where they are in the file.
 #pragma once
 
 #include <cstddef>
@@ -69,27 +69,27 @@ struct Checksums {
     StateHash others; ///< checksum of all other bytes of the file
     ByteRange place;  ///< where the text is in the file
 
-    /// The length of the text does not depend on the sums.
+    /// Returns the text. Its length does not depend on the checksums.
     std::string text() const;
-    /// The ranges that `others` does not cover.
+    /// The ranges of bytes that the checksum `others` does not cover.
     std::vector<ByteRange> left_out() const;
 };
 
-/// Reads the text of a file, and where it and its data sets are. Called on one rank;
-/// throws FileError if the text is not one of Carrom.
+/// Reads the text of checksums, and finds where the text and the data sets are in the file. Called
+/// on one rank; throws FileError if the text was not written by Carrom.
 Checksums read_checksums(hid_t file);
 
-/// Whether the file's bytes contain the text of checksums or a name in /carrom/run anywhere,
-/// whether or not its structure leads there. Only checkpoints contain these. They are in different
-/// pages, but damage of one link can hide both from HDF5. Reads the whole file. Called on one rank;
+/// Whether the file's bytes contain the text of checksums or a name in /carrom/run, even where HDF5
+/// no longer finds them. Only checkpoints contain them. Both are searched, in different pages,
+/// because a single damaged link can hide both from HDF5. Reads the whole file. Called on one rank;
 /// throws FileError.
 bool has_traces_of_checkpoint(const std::string& path);
 
 /// The checksum of a file without `left_out`. Called on one rank; throws FileError.
 StateHash checksum_of_others(const std::string& path, std::vector<ByteRange> left_out);
 
-/// The contribution of this rank's rows to a data set's checksum. The rows are read through the
-/// file's driver. Not collective; throws FileError.
+/// The part of a data set's checksum that comes from this rank's rows. The rows are read through
+/// the file's driver. Not collective; throws FileError.
 StateHash share_of_checksum(hid_t dataset, const DiscData& data, const Communicator& communicator);
 
 } // namespace carrom

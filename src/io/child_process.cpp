@@ -22,9 +22,9 @@ namespace {
 constexpr rlim_t most_seconds = 10, most_memory = rlim_t{4} << 30;
 /// Time limit for a process that waits without using a processor
 constexpr unsigned patience_seconds = 50;
-constexpr time_t least_of_loop = 3;        ///< processor time in seconds; undamaged files need less
-constexpr std::size_t longest_text = 4000; ///< a pipe takes this many bytes at once
-constexpr int code_of_machine = 3;         ///< exit code of a child that ends with a MachineError
+constexpr time_t least_of_loop = 3;        ///< seconds of processor time; undamaged files need less
+constexpr std::size_t longest_text = 4000; ///< bytes that a pipe takes in one write
+constexpr int code_of_machine = 3;         ///< exit code for a MachineError in the child
 
 void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
     rlimit limit{};
@@ -33,7 +33,7 @@ void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
     ::setrlimit(kind, &limit);
 }
 
-/// The child must not act in place of the program, so it gets no signal handlers and no core file.
+/// Sets limits, default signal handlers and no core file: the child must not act as the program.
 void take_limits() {
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGXCPU})
         ::signal(number, SIG_DFL);
@@ -74,7 +74,7 @@ void inspect_in_child_first(const std::function<void()>& inspect) {
     if (::pipe(ends) != 0) fail_with_errno("no pipe to a process that inspects it");
     const pid_t child = ::fork();
     if (child == 0) {
-        ::close(ends[0]); // frees a file handle, because the limit may be low
+        ::close(ends[0]); // frees a file descriptor, because few may be left
         inspect_and_exit(inspect, ends[1]);
     }
     ::close(ends[1]);
@@ -86,7 +86,7 @@ void inspect_in_child_first(const std::function<void()>& inspect) {
     const ssize_t length = ::read(ends[0], answer.data(), answer.size());
     ::close(ends[0]);
     if (child < 0) throw MachineError("no process that inspects it can be started");
-    // On a busy machine the alarm may come before a loop has used its time.
+    // On a busy machine the alarm may come before an endless loop has used its processor time.
     const bool has_waited = used.ru_utime.tv_sec + used.ru_stime.tv_sec < least_of_loop;
     if (WIFSIGNALED(status) &&
         (WTERMSIG(status) == SIGKILL || (WTERMSIG(status) == SIGALRM && has_waited)))

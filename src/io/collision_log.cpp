@@ -42,7 +42,7 @@ void write_structure(hid_t file, const RecordedSystem& system, const LoggedSteps
     if (!steps.gaps.empty()) h5::write_column(file, h5md::gaps_path, steps.gaps);
 }
 
-/// Logs of version 0.2 do not name their last step; they count as complete.
+/// Reads which steps a log has. Logs of version 0.2 lack their last step and count as complete.
 LoggedSteps steps_at(hid_t file, std::int64_t step) {
     LoggedSteps steps{step, {}};
     if (h5::has(file, last_step_path)) h5::read_scalar(file, last_step_path, steps.last);
@@ -87,7 +87,7 @@ void CollisionLog::begin() {
 }
 
 bool CollisionLog::go_on(std::int64_t step) {
-    steps_ = {step, {}}; // there is no file
+    steps_ = {step, {}}; // valid if there is no file
     if (step > 0) steps_.gaps = {1, step};
     return file_->go_on(std::string(h5md::collisions_path) + column_names[0], step,
                         [&](hid_t file) {

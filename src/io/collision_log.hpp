@@ -2,9 +2,9 @@
 // Every collision of a run in one HDF5 file, in the total order over all ranks.
 //
 // Columns of /carrom/collisions: step (in which the collision happens, from 1), time (in steps,
-// from the start), p, q (-1: a wall), impulse. Box, radii and masses are in /particles/discs. Rank
-// 0 writes the rows, which the ranks send in their order, for the reason that Trajectory gives;
-// errors are as there.
+// from the start), p, q (-1: a wall), impulse. Box, radii and masses are in /particles/discs. All
+// ranks send their rows in order to rank 0, which writes them; Trajectory gives the reason for
+// this, and describes errors.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct LoggedCollision {
     double impulse = 0;
 };
 
-/// The steps whose collisions a log has: all up to `last`, except for the gaps.
+/// The steps whose collisions a log contains: all steps up to `last`, except the gaps.
 struct LoggedSteps {
     std::int64_t last = 0;
     std::vector<std::int64_t> gaps; ///< the first and the last step of each gap
@@ -40,18 +40,18 @@ public:
     ~CollisionLog();
 
     /// See Trajectory. `go_on` returns, on every rank, whether there was a file. Steps up to `step`
-    /// that are not in it become a gap, which the file lists. **Collective.**
+    /// that the file lacks become a gap, which the file lists. **Collective.**
     void begin();
     bool go_on(std::int64_t step);
-    /// The last step of the file before `go_on` has cut it back, on rank 0; -1 if unknown.
+    /// The last step in the file before `go_on` has removed later steps, on rank 0; -1 if unknown.
     std::int64_t recorded_before() const { return recorded_before_; }
     void commit();
 
     /// The first and the last step of each gap, on rank 0.
     const std::vector<std::int64_t>& gaps() const { return steps_.gaps; }
 
-    /// Appends the collisions of all ranks up to `step`, those of rank 0 first. They must be later
-    /// than all collisions in the file. **Collective.**
+    /// Appends the collisions of all ranks up to `step`, first those of rank 0, then rank 1 and so
+    /// on. They must be later than all collisions in the file. **Collective.**
     void append(std::span<const LoggedCollision> mine, std::int64_t step);
 
 private:

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::string_view partial_prefix = ".carrom-";
 
-/// Names like "report.json.1234-0.partial", of reports and tables: the process and a number.
+/// Whether a name is like "report.json.1234-0.partial": a report or table, a process, a number.
 bool is_text_beside(std::string_view name) {
     if (!name.ends_with(unfinished_suffix)) return false;
     name.remove_suffix(unfinished_suffix.size());
@@ -40,7 +40,7 @@ bool is_text_beside(std::string_view name) {
            numbers.find_first_not_of("0123456789-") == std::string_view::npos;
 }
 
-/// Whether this process can open `n` more files; otherwise `errno` has the reason.
+/// Whether this process can open a file with `n_parts` parts; if not, `errno` has the reason.
 bool has_free_files(std::size_t n_parts = 0) {
     constexpr std::size_t n_for_one = 8;
     std::vector<int> files;
@@ -79,7 +79,7 @@ std::string described(const FileError& error, const std::string& path, ExitCode&
     return path + ": " + with_remedy(error);
 }
 
-// Opens without waiting for the other end of a pipe, because only plain files are accepted.
+// Opens without waiting for the other end of a pipe; pipes are rejected afterwards.
 Descriptor::Descriptor(const std::string& path, int flags) {
     if (path.find('\0') != std::string::npos) throw FileError("is no file's name");
     number_ = ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0666);
@@ -174,7 +174,7 @@ std::map<int, std::string>& held_folders() {
     return all;
 }
 
-/// The part of a path behind a held folder; it may be written "folder//name".
+/// The part of a path after a held folder and any further slashes, as in "folder//name".
 const char* below(const std::string& path, std::size_t n_letters_of_folder) {
     const std::size_t first = path.find_first_not_of('/', n_letters_of_folder);
     return path.c_str() + std::min(first, path.size());

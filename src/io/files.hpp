@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calls of the file system except writing: free space, durability, names. Each throws FileError if
-// it fails.
+// Calls of the file system except writing: free space, durability, names. Each function throws
+// FileError if its call fails.
 //
-// Each rank makes these calls on its own. `on_all` and `on_root` turn their exceptions into errors
-// on all ranks.
+// Each rank calls these functions on its own. `on_all` and `on_root` turn exceptions of one rank
+// into errors on all ranks.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +26,8 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// A problem of this machine, such as too many open files. It does not mean that the file is
-/// damaged, so an older file must not be used instead.
+/// A problem of this machine, such as too many open files. The file itself may be undamaged, so the
+/// program must not use an older file instead.
 class MachineError : public FileError {
 public:
     using FileError::FileError;
@@ -52,21 +52,21 @@ public:
     std::size_t read(std::span<std::byte> bytes, std::uint64_t offset) const;
     void write(std::span<const std::byte> bytes, std::uint64_t offset) const;
     void sync() const;
-    /// Starts writing dirty pages to disk; does not wait.
+    /// Starts writing dirty pages to disk, and returns before they are written.
     void start_sync() const;
 
 private:
     int number_ = -1;
 };
 
-/// Whether the path leads to the open file `number`, not to another one that has taken its name.
+/// Whether the path still leads to the open file `number`. Another file may have taken its name.
 bool leads_to(const std::string& path, int number);
 /// Throws MachineError unless this process may open as many more files as HDF5 and MPI-IO need for
-/// a file with this many parts. Otherwise they fail without naming the reason, and HDF5 returns
-/// fill values for parts that it cannot open.
+/// a file with this many parts. Without this test HDF5 and MPI-IO would fail without a reason, and
+/// HDF5 would return fill values for parts that it cannot open.
 void require_free_files(std::size_t n_parts = 0);
 
-/// Throws if the file system reports less free space than this.
+/// Throws if the file system reports less free space than `bytes`.
 void check_room(const std::string& folder, std::uint64_t bytes);
 /// Allocates the blocks of a file, so that a full disk is an error now and not later. Does nothing
 /// if the file system cannot do this.
@@ -74,8 +74,8 @@ void reserve(const std::string& path);
 /// Throws if a rename to `path` would replace anything but a plain file or a link, such as a
 /// device, a pipe or a folder, or if the path contains a NUL, at which the system would cut it.
 void refuse_special(const std::string& path);
-/// The folder that a path names now. While this exists, `rename_durably` renames files below `path`
-/// only in this folder, even if something else takes the path's name. For the thread that writes.
+/// The folder to which a path leads now. While this object exists, `rename_durably` renames files
+/// below `path` only in this folder, even if something else takes its name. For the writing thread.
 class HeldFolder {
 public:
     explicit HeldFolder(const std::string& path);
@@ -87,14 +87,14 @@ private:
     int number_;
 };
 
-/// Renames, and syncs the folder so that the new name is on disk. Throws if the folder is held and
-/// its path now leads to another folder.
+/// Renames a file, and syncs the folder so that the new name is on disk. Throws if the folder is
+/// held and its path now leads to another folder.
 void rename_durably(const std::string& from, const std::string& to);
 /// The end of names of unfinished files.
 inline constexpr std::string_view unfinished_suffix = ".partial";
 
-/// A file that will be renamed. Unless that happened, its destructor removes it, because half a
-/// file is useless and takes space.
+/// A file that will be renamed when it is complete. Otherwise the destructor removes it, because an
+/// incomplete file is useless and takes space.
 class UnfinishedFile {
 public:
     UnfinishedFile(std::string path, bool is_mine) : path_(std::move(path)), is_mine_(is_mine) {}
@@ -108,11 +108,11 @@ private:
     bool is_mine_;
 };
 
-/// A name that cannot be predicted. `remove_unfinished` removes such files after a program was
-/// killed.
+/// Returns a name that cannot be predicted. If a program is killed, `remove_unfinished` removes its
+/// files with such names.
 std::string name_beside();
-/// Replaces a file by a new one, as a whole or not at all. `write` makes it under a name that
-/// cannot be predicted, and syncs it to disk.
+/// Replaces a file by a new one, as a whole or not at all. `write` makes the new file under a name
+/// that cannot be predicted, and syncs it to disk.
 void replace_file(const std::string& path,
                   const std::function<void(const std::string& beside)>& write);
 void replace_file(const std::string& path, const std::string& text);
@@ -122,13 +122,13 @@ std::string folder_of(const std::string& path);
 
 /// The text of an error, with advice if the limit of open files is too low.
 std::string with_remedy(const FileError& error);
-/// The text of an error after `path`, with advice. If the machine is the cause, a `code` for bad
-/// input becomes the code of a failed rank.
+/// The error's text after `path`, with advice. If the machine is the cause, `code` changes from bad
+/// input to a failed rank.
 std::string described(const FileError& error, const std::string& path, ExitCode& code);
 
-/// Runs `act` on every rank. If it throws FileError on any, every rank throws CollectiveError with
-/// `code` and that rank's text after `path`; see `described`. **Collective.** If `act` makes at
-/// most one collective call, no rank waits for ever. If one does all the same, the failed rank ends
+/// Runs `act` on every rank. If it throws FileError on any rank, every rank throws CollectiveError
+/// with `code` and that rank's text after `path`; see `described`. **Collective.** If `act` makes
+/// at most one collective call, no rank waits for ever. If a rank does wait, the failed rank ends
 /// the run after half a minute (see `agree`).
 template <class Act>
 void on_all(const Communicator& communicator, const std::string& path, ExitCode code,

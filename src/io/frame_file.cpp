@@ -16,7 +16,7 @@
 
 namespace carrom {
 
-/// Where a column's numbers are: component `place` of `width` numbers in each row of a data set.
+/// Where a column is in a file: number `place` of the `width` numbers in a row of a data set.
 struct ColumnSource {
     std::string column, dataset;
     hsize_t width = 1, place = 0;
@@ -29,7 +29,7 @@ constexpr const char *radii_path = "/particles/discs/radius",
 constexpr std::size_t longest_word = 1000;
 constexpr std::uint64_t bodies_at_a_time = std::uint64_t{1} << 16;
 
-/// In the order of FileSummary::columns.
+/// The sources of columns, in the order of FileSummary::columns.
 std::vector<ColumnSource> sources_of_frames() {
     std::vector<ColumnSource> sources = {{"x", "position", 3, 0},
                                          {"y", "position", 3, 1},
@@ -85,7 +85,7 @@ Box box_of_last_frame(hid_t file, std::size_t n_frames) {
     return {edges[3 * n_frames - 3], edges[3 * n_frames - 2]};
 }
 
-/// The words of an attribute, which have equal lengths, one after the other.
+/// Returns the words of an attribute, all of the same length, one after the other.
 std::string letters_of(hid_t file, const char* object, const char* name, hssize_t n_words) {
     const h5::Attribute attribute(
         h5::checked(H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT), name));
@@ -101,7 +101,7 @@ std::string letters_of(hid_t file, const char* object, const char* name, hssize_
     return letters;
 }
 
-/// Reads what all files have about the discs' system.
+/// Reads the description of the system of discs, which all files have.
 void read_system(hid_t file, std::uint64_t n_discs, RecordedSystem& system) {
     system.program_version = letters_of(file, "/h5md/creator", "version", 1);
     h5::read_scalar(file, "/parameters/radius", system.radius);
@@ -331,7 +331,7 @@ void FrameFile::read_stored(std::size_t frame, std::uint64_t begin, std::uint64_
     }
 }
 
-/// Adding +0 turns -0 into +0, so that two states with the same hash give the same output.
+/// Reads a state. Adding +0 turns -0 into +0, so that states with equal hashes give equal output.
 void FrameFile::read_state(std::uint64_t begin, std::uint64_t end, Rows& rows) const {
     const CheckpointHeader& header = state_->header;
     const hid_t file = state_->file.id();

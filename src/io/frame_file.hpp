@@ -15,7 +15,7 @@ namespace carrom {
 
 enum class FileKind { checkpoint, trajectory, collisions };
 
-/// The box is the box of the last frame.
+/// The description of a file; its box is the box of the last frame.
 struct FileSummary : RecordedSystem {
     FileKind kind = FileKind::checkpoint;
     /// Whether the file has checksums of all its bytes, as all files of this version do.
@@ -40,8 +40,8 @@ using Rows = std::vector<std::vector<double>>;
 /// All functions throw an InputError that names the file. Not collective.
 class FrameFile {
 public:
-    /// Does not detect damage of checkpoints that HDF5 ignores; call `check_damage` before. A child
-    /// process must have opened the file and read from all its parts before (child_process.hpp).
+    /// Call `check_damage` first for checkpoints, because HDF5 ignores some damage. A child process
+    /// must already have opened the file and read from all its parts (child_process.hpp).
     explicit FrameFile(const std::string& path);
     ~FrameFile();
     FrameFile(FrameFile&&) noexcept;
@@ -51,17 +51,17 @@ public:
     /// The paths of the segments that a recording joins.
     std::vector<std::string> segments() const;
 
-    /// Checks every byte of a recording. Opening it checks all but its numbers.
+    /// Checks every byte of a recording. The constructor checks all bytes except the numbers.
     void check_numbers() const;
 
     /// Replaces `rows` by the rows [begin, end) of a frame. A log has one frame, number 0.
     /// Positions count from the lower left corner of the box.
     void read(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const;
-    /// With positions as the run shows them to users.
+    /// Reads the rows with positions that count from the scene's origin.
     void read_shown(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const;
 
-    /// The rows, ascending, of the discs of a frame that have left the box through an open side.
-    /// The frame must have velocities. It is read only if the box has such a side.
+    /// The rows, ascending, of a frame's discs that have left the box through an open side. The
+    /// frame must have velocities. It is read only if the box has an open side.
     std::vector<std::uint64_t> find_departed(std::size_t frame) const;
 
 private:

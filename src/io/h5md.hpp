@@ -13,8 +13,8 @@ namespace carrom::h5md {
 
 inline constexpr const char *discs_path = "/particles/discs/",
                             *collisions_path = "/carrom/collisions/",   ///< a path outside H5MD
-                                *gaps_path = "/carrom/collisions/gaps"; ///< first step, last step,
-                                                                        ///< and so on
+                                *gaps_path = "/carrom/collisions/gaps"; ///< first and last
+                                                                        ///< step of each gap
 inline constexpr const char *step_path = "/particles/discs/box/edges/step",
                             *time_path = "/particles/discs/box/edges/time",
                             *edges_path = "/particles/discs/box/edges/value";

@@ -18,7 +18,7 @@ namespace carrom {
 
 void start_io() {
     std::signal(SIGXFSZ, SIG_IGN);
-    // No locks by HDF5, because readers open recordings that grow, and runs have their own lock.
+    // HDF5 must not lock files: readers open growing recordings, and runs have their own lock.
     setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     H5dont_atexit();
     H5open(); // before MPI starts, so that HDF5 does not register an action for MPI's end
@@ -38,7 +38,7 @@ namespace carrom::h5 {
 
 namespace {
 
-// Scenes have at most 2^26 characters
+// Longer than any scene, which has at most 2^26 characters
 constexpr std::size_t longest_text = std::size_t{1} << 28;
 constexpr unsigned most_links = 64; // largest number of links in a group of Carrom's files
 
@@ -51,7 +51,7 @@ herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
     return 0;
 }
 
-/// Otherwise HDF5 would print its error stack to standard error on every rank.
+/// Stops HDF5 from printing its error stack to standard error on every rank.
 void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 /// Time stamps are left out, so that equal contents give equal bytes.
@@ -134,7 +134,7 @@ Properties properties(hid_t kind) {
 Properties dataset_creation() {
     Properties creation = properties(H5P_DATASET_CREATE);
     leave_out_times(creation);
-    // the newer format, as for groups
+    // selects the newer format with checksums, as for groups
     set(creation, H5Pset_attr_creation_order, unsigned{H5P_CRT_ORDER_TRACKED});
     return creation;
 }
@@ -267,7 +267,7 @@ void write_any_length(hid_t object, const std::string& name, const std::string& 
     write_attribute(object, name, text_type(H5T_VARIABLE).id(), space({}), &letters);
 }
 
-/// HDF5 writes small data to the file when the data set is closed.
+/// Also closes the data set, because HDF5 writes small data to the file only then.
 void write_whole(hid_t parent, const std::string& name, std::span<const hsize_t> dimensions,
                  hid_t type, const void* values) {
     write_and_close(create_dataset(parent, name, type, dimensions, dataset_creation()), name, type,

@@ -23,7 +23,7 @@ namespace carrom::h5 {
 /// Throws FileError with `what` and the cause that HDF5 gives.
 [[noreturn]] void fail(std::string_view what);
 
-/// Returns what HDF5 has returned, or throws.
+/// Returns the result of an HDF5 call, or throws if the call has failed.
 template <class Result> Result checked(Result result, std::string_view what) {
     if (result < 0) fail(what);
     return result;
@@ -51,7 +51,7 @@ public:
         if (id_ >= 0) checked(close_function(std::exchange(id_, -1)), what);
     }
 
-    /// Never closes the object.
+    /// Releases the identifier without closing the object.
     void abandon() { id_ = -1; }
 
 private:
@@ -68,16 +68,16 @@ using Attribute = Handle<H5Aclose>;
 using Properties = Handle<H5Pclose>;
 
 Properties properties(hid_t kind);
-/// Calls one of H5Pset_..., which fail only if memory is missing.
+/// Calls a function H5Pset_..., which fails only if memory runs out.
 template <class Set, class... Values>
 void set(const Properties& list, const Set& set_values, Values... values) {
     checked(set_values(list.id(), values...), "cannot set a property");
 }
 /// For a new data set without a time stamp, so that equal contents give equal bytes.
 Properties dataset_creation();
-/// For a new data set whose space in the file is allocated at once, without numbers yet.
+/// For a new data set whose space in the file is allocated before any numbers are written.
 Properties allocated_creation();
-/// A data space of these dimensions; one number if there are none.
+/// A data space of these dimensions; a single number if `dimensions` is empty.
 Space space(std::span<const hsize_t> dimensions);
 /// Selects `count` numbers along each axis from `start` on.
 void select(const Space& space, std::span<const hsize_t> start, std::span<const hsize_t> count);
@@ -132,7 +132,7 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
 /// Writes a string of variable length; h5py reads strings of fixed length as bytes.
 void write_any_length(hid_t object, const std::string& name, const std::string& text);
 
-/// Creates a data set and writes it at once from this process; one value without dimensions.
+/// Creates a data set and writes all of it from this process; a single value without dimensions.
 void write_whole(hid_t parent, const std::string& name, std::span<const hsize_t> dimensions,
                  hid_t type, const void* values);
 template <class Numbers>

@@ -11,7 +11,7 @@ namespace carrom {
 MadeFolders::MadeFolders(const std::string& path) {
     std::error_code error;
     std::filesystem::path place = std::filesystem::absolute(path, error).lexically_normal();
-    if (!place.has_filename()) place = place.parent_path(); // because a slash ended it
+    if (!place.has_filename()) place = place.parent_path(); // drops a slash at the end
     for (; place.has_relative_path(); place = place.parent_path()) {
         if (error || std::filesystem::exists(place, error)) return;
         paths_.push_back(place.string());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The folders of a path that do not exist yet, on one rank. Whatever makes them and fails before it
-// writes anything leaves no empty folders behind.
+// The folders of a path that do not exist yet, on one rank. So code that makes these folders, and
+// fails before it writes anything, leaves no empty folders behind.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@ namespace carrom {
 class MadeFolders {
 public:
     MadeFolders() = default;
-    /// Before the folder `path` and those above it are made.
+    /// Call it before the folder `path` and the folders above it are made.
     explicit MadeFolders(const std::string& path);
-    /// Removes those that are empty.
+    /// Removes the new folders that are empty.
     ~MadeFolders();
     MadeFolders(MadeFolders&& other) noexcept;
     MadeFolders& operator=(MadeFolders&&) = delete;
 
 private:
-    std::vector<std::string> paths_; ///< the innermost one first
+    std::vector<std::string> paths_; ///< paths of the new folders, innermost first
 };
 
 } // namespace carrom

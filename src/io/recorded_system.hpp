@@ -20,13 +20,13 @@ struct RecordedSystem {
     double radius = 0;            ///< the largest radius
     std::vector<Species> species; ///< empty if all discs have that radius and mass 1
     bool is_periodic_x = false, is_periodic_y = false;
-    /// Left, right, bottom, top: discs may be outside of these sides
+    /// Whether discs may be outside of the left, right, bottom and top side
     std::array<bool, 4> open_boundaries{};
-    /// Of walls that swing: discs may be outside of the box by this distance
+    /// Amplitudes of swinging walls: discs may be outside of the box by these distances
     std::array<double, 4> amplitudes{};
     /// The point of the box that is (0, 0) for users. Positions in files count from its corner.
     std::array<double, 2> origin{};
-    /// Such as "nm" and "ps"; empty if the scene names no units
+    /// Units, such as "nm" and "ps"; empty if the scene names no units
     std::string length_unit, time_unit;
 };
 

@@ -16,7 +16,7 @@ namespace carrom {
 
 namespace {
 
-// Then 16 bytes of checksum, which end the file
+// The beginning of a seal; 16 bytes of checksum follow and end the file
 constexpr std::string_view mark = "carrom, checked:";
 constexpr std::size_t end_size = mark.size() + sizeof(StateHash);
 
@@ -51,7 +51,7 @@ std::uint64_t length_at(std::string_view bytes) {
     return length;
 }
 
-/// Whether HDF5 would reach the end of a heap's objects. Free space is object 0.
+/// Whether HDF5 reaches the end of a heap's list of objects. Free space has the number 0.
 bool has_end(std::string_view heap) {
     if (heap.size() < heap_header) return true;
     const std::uint64_t size = length_at(heap.substr(place_of_size));

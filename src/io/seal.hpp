@@ -16,17 +16,17 @@ namespace carrom {
 /// Appends the mark and the checksum to a file that joins segments, and syncs it to disk.
 void seal_index(const std::string& path);
 
-/// The checksum at the end of a file that joins segments, without comparing it; nothing for other
-/// files.
+/// Reads the checksum at the end of a file that joins
+/// segments, without testing it; nothing for other files.
 std::optional<StateHash> seal_of(const std::string& path);
 
 /// Returns whether the file ends with a seal. Throws FileError if the seal does not match its
 /// bytes.
 bool check_seal(const std::string& path);
 
-/// Throws FileError if a global heap of HDF5, which has the names of segments, holds an object
-/// without a size: HDF5 up to 2.0 would read it for ever. Files above 16 MiB are not searched,
-/// because files of Carrom that have such heaps are smaller.
+/// Throws FileError if a global heap of HDF5, which holds the names of segments, has an object
+/// without a size, because HDF5 up to 2.0 never finishes reading such an object. Files above 16 MiB
+/// are not searched, because Carrom's files with such heaps are smaller.
 void check_heaps(const std::string& path);
 
 } // namespace carrom

@@ -87,7 +87,7 @@ bool SegmentedFile::go_on(const std::string& step, std::int64_t last,
     return true;
 }
 
-/// Throws if there are segments without a joining file, because they are the recording of some run.
+/// Throws if there are segments without a joining file, because they may be part of a recording.
 void SegmentedFile::refuse_segments() const {
     const std::string name = segment_name(path_, 1);
     std::error_code error;
@@ -236,7 +236,7 @@ void SegmentedFile::commit() {
     on_root(communicator_, path_, ExitCode::output_failure, [&] { commit_here(); });
 }
 
-/// Syncs the last segment and its name in the folder; earlier ones are already on disk.
+/// Syncs the last segment and its entry in the folder; earlier segments are already on disk.
 void SegmentedFile::sync_segment() const {
     if (segments().empty()) return;
     const std::string path = segment_path(path_, segments().back().name);
@@ -248,14 +248,14 @@ void SegmentedFile::sync_segment() const {
     Descriptor(folder_of(path), O_RDONLY | O_DIRECTORY).sync();
 }
 
-/// Throws if another program's file has taken the small file's name, because it would be replaced.
+/// Throws if another program's file has the small file's name, because a commit would replace it.
 void SegmentedFile::refuse_other_file() const {
     std::error_code error;
     const auto is_there = [&] { return std::filesystem::exists(path_, error); };
     if (!seal_ || !is_there()) return;
     try {
         if (seal_of(path_) == seal_) return;
-    } catch (const FileError&) { // another process may be removing it, with its folder
+    } catch (const FileError&) { // another process may be removing the file and its folder
         if (!is_there()) return;
         throw;
     }

@@ -59,7 +59,7 @@ public:
     /// Makes the rows so far permanent and visible to readers. **Collective.**
     void commit();
 
-    /// Rank 0 does the rest of an addition alone, in an `attempt`. `finish_addition` throws its
+    /// Runs `act` on rank 0, which does the rest of an addition alone. `finish_addition` throws its
     /// errors later, because rank 0 must first receive everything that other ranks send.
     template <class Act> void attempt(const Act& act) {
         if (!communicator_.is_root() || !failure_.empty()) return;
@@ -69,7 +69,7 @@ public:
             failure_ = error.what();
         }
     }
-    /// **Collective.**
+    /// Throws the error of an `attempt`, if any, on every rank. **Collective.**
     void finish_addition();
 
     /// The number of rows, at least 1, that can be written before the next `add`. May make a
@@ -105,7 +105,7 @@ private:
     bool is_cut_ = false;                ///< whether rows were cut off since the last commit
     ColumnHashers hashers_;              ///< hashes of the last segment's columns
     std::vector<std::uint64_t> written_; ///< bytes of each column since the last `add`
-    /// The last segment. It stays open, so that no other file that takes its name is written to.
+    /// The last segment. It stays open, so that writes never reach another file of this name.
     std::unique_ptr<Descriptor> open_;
     std::uint64_t open_size_ = 0; ///< full size of the last segment in bytes, which does not change
     /// Checksum of the small file, as soon as this object has written it

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The segments of a recording, the list of them in the file that joins them, and the checksums.
 //
-// Segments are checked without HDF5, which might not survive a damaged one. The
+// Segments are checked without HDF5, because HDF5 may crash or hang on a damaged segment. The
 // joining file ends with a seal (seal.hpp).
 #pragma once
 
@@ -31,7 +31,7 @@ struct Index {
     std::vector<FileSegment> segments;
 };
 
-/// For example "trajectory/0001.h5" for "run/trajectory.h5" and 1.
+/// The name of a segment: "trajectory/0001.h5" for "run/trajectory.h5" and 1.
 std::string segment_name(const std::string& path, std::size_t number);
 /// The path of a segment; `joining` is the path of the joining file.
 std::string segment_path(const std::string& joining, const std::string& name);

@@ -13,7 +13,7 @@ namespace carrom {
 /// process.
 void start_io();
 
-/// The version of HDF5, such as "1.10.8". Needs no start.
+/// The version of HDF5, such as "1.10.8". Can be called before `start_io`.
 std::string hdf5_version();
 
 } // namespace carrom

@@ -20,8 +20,8 @@ namespace carrom {
 
 namespace {
 
-/// The number of discs that rank 0 collects at a time. It grows with the number of ranks, because
-/// each rank sends a message each time, so a frame needs as many messages on 256 ranks as on 16.
+/// The number of discs that rank 0 collects in one round. It rises with the number of ranks, so
+/// that a frame needs as many messages from 256 ranks as from 16.
 std::uint64_t discs_at_a_time(int n_ranks) {
     constexpr std::uint64_t least = std::uint64_t{1} << 16, most = std::uint64_t{1} << 20;
     return std::clamp(least / 16 * static_cast<std::uint64_t>(n_ranks), least, most);
@@ -215,7 +215,7 @@ private:
     std::span<const DiscState> discs_;
     SideSpans columns_;
     std::span<const ComputedNumbers> computed_;
-    std::span<const DiscImage> images_; ///< those with larger ids
+    std::span<const DiscImage> images_; ///< images of discs whose ids are still to come
     double clock_;
     const TrajectoryLayout& layout_;
     const CollectedWords& collected_;
@@ -310,7 +310,7 @@ void Trajectory::append(std::int64_t step, std::span<const DiscState> discs, dou
 
 void Trajectory::commit() {
     file_->commit();
-    // Each time all frames are described, so this must be frequent enough but not take long.
+    // Describes all frames, so it runs only when their number has risen by a quarter.
     if (communicator_.any(communicator_.is_root() &&
                           steps_.size() >= n_described_ + n_described_ / 4 + 1))
         describe();

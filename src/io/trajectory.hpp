@@ -56,10 +56,10 @@ public:
     /// none.
     std::int64_t recorded_before() const { return recorded_before_; }
 
-    /// Adds a frame: the discs at `clock`, in any distribution over the ranks. The layout's columns
-    /// and computed numbers, if it has any, are in the same order. If the layout has images, each
-    /// rank gives those of a range of ids, which follows the range of the previous rank.
-    /// **Collective.**
+    /// Adds a frame: the discs at `clock`, in any distribution over the ranks.
+    /// Columns and computed numbers of the layout, if any, are in the order of
+    /// `discs`. If the layout has images, each rank passes the images of a range
+    /// of ids, which follows the range of the previous rank. **Collective.**
     void append(std::int64_t step, std::span<const DiscState> discs, double clock,
                 const SideSpans& columns = {},
                 std::span<const ComputedNumbers> computed_numbers = {},

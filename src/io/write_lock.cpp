@@ -21,7 +21,7 @@ namespace carrom {
 
 namespace {
 
-/// A run that was just killed may still be ending.
+/// Waits this long for the lock, because a run that was just killed may still be ending.
 constexpr std::chrono::milliseconds patience(2000), pause(50);
 
 std::string this_process() {
@@ -60,7 +60,7 @@ WriteLock::WriteLock(WriteLock&& other) noexcept
       holder_(std::move(other.holder_)), problem_(std::move(other.problem_)),
       file_(std::exchange(other.file_, -1)), folder_(std::move(other.folder_)) {}
 
-/// Returns true if further waiting would be useless, or if the lock is held.
+/// Returns true if the lock is held, or if further waiting would be useless.
 bool WriteLock::try_once() {
     holder_.clear();
     const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK,
@@ -79,7 +79,7 @@ bool WriteLock::try_once() {
         ::close(file);
         return holder_.empty();
     }
-    if (!leads_to(path_, file)) { // a holder removes the file when it ends
+    if (!leads_to(path_, file)) { // the former holder has removed the file
         ::close(file);
         return false;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Allows only one run at a time to write to a path. Two runs would remove each other's files and
-// write into the same ones.
+// Allows only one run at a time to write to a path. Otherwise two runs would remove each other's
+// files or write to the same file.
 //
 // The lock is flock's, on a small file of its own (HDF5 locks its files itself). The kernel
 // releases it when the process ends. Lustre shares it between nodes if it is mounted with `flock`.
@@ -38,7 +38,7 @@ public:
 private:
     bool try_once();
 
-    MadeFolders made_; // the last member that ends
+    MadeFolders made_; // declared first, so that it is destroyed last
     std::string path_, holder_, problem_;
     int file_ = -1;                      ///< open while the lock is held
     std::unique_ptr<HeldFolder> folder_; ///< the folder of the lock, while it is held

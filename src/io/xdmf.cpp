@@ -18,7 +18,7 @@ struct Row {
     std::uint64_t number;
 };
 
-/// The numbers of each disc: three, or one.
+/// The XDMF text of a field with three numbers, or one number, for each disc.
 std::string numbers(const Row& row, const TrajectoryLayout& layout, const char* element,
                     bool are_vectors) {
     return fmt::format("<DataItem ItemType=\"HyperSlab\" Dimensions=\"{0}{6}\"><DataItem "
@@ -49,7 +49,7 @@ std::string fixed(const std::string& file, const TrajectoryLayout& layout, const
 
 void write_xdmf(const std::string& path, const TrajectoryLayout& layout,
                 std::span<const FileSegment> segments, std::span<const std::int64_t> steps) {
-    if (!layout.has_position) return; // a picture needs positions
+    if (!layout.has_position) return; // viewers need positions
     const std::string file = std::filesystem::path(path).filename().string();
     std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\"><Domain><Grid "
                        "Name=\"discs\" GridType=\"Collection\" "

@@ -13,8 +13,8 @@
 
 namespace carrom {
 
-/// Writes trajectory.xdmf beside trajectory.h5, as a whole or not at all. It has some
-/// 1 KB for each frame. Throws FileError.
+/// Writes trajectory.xdmf beside trajectory.h5, as a whole or not at all. The file takes some 1 KB
+/// for each frame. Throws FileError.
 void write_xdmf(const std::string& path, const TrajectoryLayout& layout,
                 std::span<const FileSegment> segments, std::span<const std::int64_t> steps);
 

@@ -89,7 +89,7 @@ void place(Shape& shape, const Box& box, double radius) {
     lattice.y0 = shape.y_spans > 0 ? low : height / 2;
 }
 
-/// Tries lattices with rows along that axis, and keeps the one with the widest gaps.
+/// Tries lattices with rows along `axis`, and keeps the one with the widest gaps.
 void try_rows_along(Axis axis, std::uint64_t n_discs, const Box& box, double radius,
                     std::optional<Lattice>& widest) {
     const auto [length, height] = turned(axis, box.x, box.y);
@@ -115,8 +115,8 @@ std::optional<Lattice> widest_lattice(std::uint64_t n_discs, const Box& box, dou
     try_rows_along(longer_axis(box), n_discs, box, radius, widest);
     if (!box.is_square())
         try_rows_along(other_axis(longer_axis(box)), n_discs, box, radius, widest);
-    // Neighbours may touch. If a rounding error of L makes them overlap, it is within the method's
-    // tolerance.
+    // Neighbours may touch. If a rounding error of L makes them
+    // overlap, the overlap is within the method's tolerance.
     if (widest->free_radius < -0x1p-52 * box.longest()) return std::nullopt;
     widest->free_radius = std::max(widest->free_radius - 0x1p-49 * box.longest(),
                                    0.0); // rounding must not make the gap negative

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A lattice of N discs between the walls with the widest gaps, and a random shake that closes none
-// of them.
+// The lattice of N discs between walls that has the widest gaps, and random shifts of its discs
+// that close none of the gaps.
 //
 // It tries a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1 sites),
 // stretched to fill the box, with every number of rows along the longer side and then along the
@@ -49,8 +49,8 @@ Point shaken(Point site, double free_radius, std::uint64_t seed, DiscId id, Axis
 /// The site, shifted to a random position within `free_radius`.
 Point shaken_site(const Lattice& lattice, DiscId id, std::uint64_t seed);
 
-/// A number coprime to n and near its golden section. Sites taken in such strides mix
-/// species, which come in the order of ids.
+/// A number coprime to n and near the golden section of n. Steps of this size through the sites mix
+/// species, whose ids are consecutive.
 std::uint64_t mixing_stride(std::uint64_t n);
 
 } // namespace carrom

@@ -22,8 +22,8 @@ void check_size(const char* call, std::size_t size, std::uint64_t wanted) {
 }
 
 /// Whether a place may be outside of [0, period). Without a period the range is unlimited. One
-/// comparison is enough, because the bits of numbers from 0 on have the same order as the numbers,
-/// and those of negative ones are larger.
+/// comparison is enough, because the bits of numbers from 0 on are ordered like the numbers, and
+/// the bits of negative numbers are larger.
 bool may_be_outside(double place, double period) {
     const double end = period == 0 ? std::numeric_limits<double>::infinity() : period;
     return std::bit_cast<std::uint64_t>(place) >= std::bit_cast<std::uint64_t>(end);
@@ -37,8 +37,8 @@ template <class Put>
     put(disc.id, disc.x, disc.y);
 }
 
-/// Calls `put(id, x, y)` for each of the own discs, at its place in the box, on all threads. A disc
-/// that may have left the box since the last sync gets a second call, with the right place.
+/// Calls `put(id, x, y)` for each disc of this rank with its position in the box, on all threads.
+/// For a disc that may have left the box since the last sync, a second call has the right position.
 template <class Put> void for_each_place(const Run& run, const Put& put) {
     const DiscSystem& system = run.system();
     const std::span<const DiscState> discs = system.discs();
@@ -67,7 +67,7 @@ template <class Put> void for_each_place(const Run& run, const Put& put) {
     }
 }
 
-/// Calls `put(disc, i)` for each own disc, the i-th as the box sees it, on all threads.
+/// Calls `put(disc, i)` for each disc i of this rank, in the frame of the box, on all threads.
 template <class Put> void for_each_shown(const Run& run, const Put& put) {
     const DiscSystem& system = run.system();
     const std::span<const DiscState> discs = system.discs();

@@ -3,8 +3,8 @@
 //
 // Both continue from the stored state as a restart from a checkpoint does, so they also have the
 // same bits on any number of ranks and threads. A changed disc starts anew at the present time. All
-// others keep their stored bits, so setting the present values changes nothing. Price: about as
-// much as setting up a run of these discs, and the memory of a second one meanwhile.
+// others keep their stored bits, so setting the present values changes nothing. Price: about the
+// time to set up a run of these discs, and the memory of a second run meanwhile.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -26,7 +26,7 @@ namespace {
 constexpr const char* call_name = "change_discs";
 constexpr std::size_t most_named = 5; ///< problems of discs that a message lists for each rank
 
-/// The region of discs' centres at the present step.
+/// The region in which discs' centres may be at the present step.
 class Room {
 public:
     explicit Room(const Run& run)
@@ -77,20 +77,20 @@ struct Change {
     bool is_on() const { return of_place || of_velocity || of_spin; }
 };
 
-/// The disc in the coordinates of the computation. Coordinates that are as shown keep all bits.
+/// The disc in the coordinates of the computation. Unchanged coordinates keep all bits.
 Disc counted_from_corner(Disc disc, const DiscState& shown, const Origin& origin) {
     disc.x = disc.x == shown.x - origin.x ? shown.x : disc.x + origin.x;
     disc.y = disc.y == shown.y - origin.y ? shown.y : disc.y + origin.y;
     return disc;
 }
 
-/// `shown` is the disc as the box sees it, with velocities per micro-step.
+/// Compares with `shown`, the disc in the frame of the box with velocities per micro-step.
 Change change_of(const Disc& disc, const DiscState& shown, double unit, double spin) {
     return {disc.x != shown.x || disc.y != shown.y,
             disc.vx != shown.vx * unit || disc.vy != shown.vy * unit, disc.spin != spin};
 }
 
-/// Makes the disc start anew at the present time. `shown` is the disc as the box saw it before.
+/// Starts the disc anew at the present time. `shown` is its old state in the frame of the box.
 void apply(const Disc& disc, const Change& change, const DiscState& shown, const Frame& frame,
            double time, double unit, DiscState& stored) {
     const double x = stored.x_at(time), y = stored.y_at(time);

@@ -55,7 +55,7 @@ Scene Scene::from_text(std::string_view text, const std::string& name) {
 
 Scene& Scene::set(std::string_view key, std::string_view value) {
     std::string setting = fmt::format("{}={}", key, value);
-    // Files have one setting a line
+    // Line breaks become spaces, because files have one setting a line
     std::replace(setting.begin(), setting.end(), '\n', ' ');
     source_.settings.push_back(std::move(setting));
     return *this;

@@ -40,7 +40,7 @@ Session::Session(int fortran_communicator) {
 }
 
 Session::~Session() {
-    // The program may have ended MPI
+    // The program may have ended MPI itself; then no messages can be sent
     if (!has_mpi_ended()) Departure(state_->ranks).leave();
 }
 

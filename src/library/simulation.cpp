@@ -23,8 +23,8 @@ namespace carrom {
 
 namespace {
 
-/// Images are read this often, so that few crossings are in memory: a sync adds at most one for
-/// each disc. By default syncs are 64 micro-steps apart.
+/// Steps between readings of images. Readings keep the list of crossings short: a sync adds at most
+/// one for each disc. By default syncs are 64 micro-steps apart.
 constexpr std::int64_t steps_between_readings = 64;
 
 /// Images can be counted only for periodic sides at rest.
@@ -75,7 +75,7 @@ Simulation::State::State(SceneParameters checked, RunStart start, const Communic
 }
 
 std::int64_t Simulation::State::ImageReading::next_due(std::int64_t) const {
-    // The run stops often enough anyway
+    // Requests no stops of its own, because the run stops often enough
     return std::numeric_limits<std::int64_t>::max();
 }
 

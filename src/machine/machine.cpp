@@ -32,8 +32,8 @@ namespace carrom {
 namespace {
 
 constexpr int most_threads = 1024;
-/// Threads for each core beyond which sharing cores is reported. Two are usual in trials on small
-/// machines.
+/// The largest number of threads for each core without a
+/// warning. Two are usual in trials on small machines.
 constexpr int most_crowded = 2;
 /// Up to two threads are accepted for any number of discs.
 constexpr int few_threads = 2;
@@ -89,7 +89,7 @@ std::uint64_t memory_of_control_group() {
     const auto read_limit = [&least](const std::filesystem::path& path) {
         std::ifstream file(path);
         if (std::uint64_t bytes = 0; file >> bytes)
-            least = std::min(least, bytes); // "max" is not a number
+            least = std::min(least, bytes); // "max" means no limit and is not a number
     };
     std::ifstream groups("/proc/self/cgroup");
     for (std::string line; std::getline(groups, line);) {
@@ -272,8 +272,8 @@ std::uint64_t memory_per_rank(const Communicator& ranks) {
 }
 
 std::uint64_t peak_resident_bytes() {
-    // Without getrusage, because its ru_maxrss survives exec and may be that of a large parent
-    // process.
+    // Does not use getrusage, because its ru_maxrss survives
+    // exec and may be the memory of a large parent process.
     std::ifstream status("/proc/self/status");
     constexpr std::string_view label = "VmHWM:";
     for (std::string line; std::getline(status, line);)

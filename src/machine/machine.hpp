@@ -16,7 +16,7 @@ namespace carrom {
 struct BuildFacts {
     std::string compiler; ///< such as "GNU 12.2.0"
     std::string flags;    ///< optimisation flags of this build, and flags of all targets
-    /// Such as "0123456789ab", from when the build was configured; or "unknown"
+    /// The commit when the build was configured, such as "0123456789ab"; or "unknown"
     std::string commit;
 };
 BuildFacts build_facts();

@@ -95,8 +95,8 @@ void BlockAverages::add(std::int64_t step, const Block& block) {
     if (2 * steps_per_sample_ <= most_steps_per_sample()) steps_per_sample_ *= 2;
 }
 
-/// The longest useful time between samples: samples need not be more frequent than syncs. If syncs
-/// are very frequent, samples do not depend on them.
+/// The longest time between samples: the interval of
+/// syncs, or `usual_interval` if syncs are more frequent.
 std::int64_t BlockAverages::most_steps_per_sample() const {
     const std::int64_t apart = std::max(system_.sync_every, usual_interval);
     return (apart + system_.micro_steps - 1) / system_.micro_steps;
@@ -126,7 +126,7 @@ void BlockAverages::Block::keep(KeptNumbers& kept) {
     keep_tensor(kept, motion.stress);
 }
 
-/// Averages begin anew after a restart if they are now over other steps.
+/// Averages begin anew after a restart if the scene now averages over other steps.
 void BlockAverages::keep(KeptNumbers& kept) {
     kept.same(run_.scene.averages_from);
     MotionInterval::Pending pending;
@@ -179,7 +179,7 @@ BlockAverages::Block BlockAverages::block_up_to(std::int64_t step,
     return block;
 }
 
-/// Whether discs have left through open sides, which changes averages over the others.
+/// Whether discs have left through open sides, which changes averages over the remaining discs.
 bool BlockAverages::lost_discs() const {
     if (system_.keeps_discs || blocks_.empty()) return false;
     const auto n_in = [](const Block& block) { return block.motion.n_discs / block.steps(); };

@@ -4,9 +4,9 @@
 //
 // If nothing stops the discs' common motion V along a periodic axis, it adds V^2 t^2 to mean square
 // displacements and V^2 to mean products of velocities. This motion is not diffusion and depends on
-// the frame, so it is subtracted from each disc. It is not subtracted from a single disc, which
-// would then be at rest. Nor is it subtracted if discs give momentum to fixed bodies, walls or a
-// thermostat, because the centre of mass of N such discs diffuses with D / N.
+// the frame, so it is subtracted from each disc. A single disc keeps this motion, because it would
+// otherwise be at rest. Discs that give momentum to fixed bodies, walls or a thermostat keep it,
+// too, because the centre of mass of N such discs diffuses with D / N.
 #pragma once
 
 #include <array>

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fields of a cell over a block of samples, relative to the cell's mean velocity in the block.
 //
-// The mean velocity V of a block comes from the same discs, so part of their thermal motion goes
-// with it: kT comes out too low by D kT / n, with n counts of discs in the block and D degrees of
-// freedom. Consecutive samples hold the same discs, so D lies anywhere from 1 to the number s of
-// samples. It follows from the scatter of the cell's velocities V_k at the samples:
+// The mean velocity V of a block comes from the same discs, so it contains part of their thermal
+// motion: kT comes out too low by D kT / n, with n counts of discs in the block and D degrees of
+// freedom. Consecutive samples contain the same discs, so D may have any value from 1 to the number
+// s of samples. D follows from the scatter of the cell's velocities V_k at the samples:
 //
 //   sum_k sum_i m (v - V)^2  =  sum_k sum_i m (v - V_k)^2  +  sum_k M_k (V_k - V)^2
 //      mean (n - D) kT                mean (n - s) kT               mean (s - D) kT
 //
-// The middle sum has no memory of other samples in it, so it gives kT, and what is missing is D kT.
-// Its n_k discs have the weight n_k / (n_k - 1). With equal weights cells that fast discs have
-// crossed would count too much, because they hold fewer discs.
-// In a flow that changes within the block the last sum is larger than thermal motion can make it.
-// It then belongs to the fields about V, and only D = 1 is given back.
+// The middle sum is independent of other samples, so it gives kT, and the missing part is D kT. The
+// n_k discs of a sample have the weight n_k / (n_k - 1). With equal weights, cells that fast discs
+// have crossed would count too much, because they hold fewer discs. In a flow that changes within
+// the block the last sum is larger than thermal motion can make it. This sum then belongs to the
+// fields relative to V, and the correction uses D = 1.
 #pragma once
 
 #include <array>

@@ -22,8 +22,8 @@
 namespace carrom {
 
 /// The sums of each cell. The first eight are over discs, the others over collisions: impulse times
-/// distance, which divided by time and area is the collisions' part of the pressure tensor, and
-/// energy times distance, which in the same way gives their part of the flow of energy.
+/// distance, which divided by time and area is the collisional part of the pressure tensor, and
+/// energy times distance, which in the same way gives the collisional flow of energy.
 enum FieldMoment : std::uint8_t {
     field_mass,
     field_momentum_x,
@@ -129,7 +129,7 @@ public:
     /// collisions.
     void add_discs(const FieldSums& other);
     void clear_discs();
-    /// Replaces the sums over discs by those of all ranks. **Collective.**
+    /// Replaces the sums over discs by the sums of all ranks. **Collective.**
     void join_discs(const Communicator& ranks);
 
     /// The counts and sums of all ranks, as words. **Collective.**
@@ -143,9 +143,9 @@ public:
     double value(std::size_t cell, FieldMoment moment) const {
         return sum_at(cell, moment).value();
     }
-    /// For cells of `n` species, one species after another: the sums over all species in each cell.
+    /// For cells of `n_species` species, one species after another: sums over species in each cell.
     FieldSums over_species(std::size_t n_species) const;
-    /// All cells in one cell.
+    /// The sums over all cells, as a single cell.
     FieldSums total() const { return over_species(size()); }
 
 private:
@@ -157,16 +157,16 @@ private:
     /// The sum of both numbers, in both places.
     static Pair sum_of(Pair pair) { return pair + turned(pair); }
 
-    /// A double of this size has no fraction. So adding it to a smaller number rounds that to a
-    /// whole number, which is then in the low bits. That takes a third of the work of a conversion.
+    /// A double of this size has no fraction. So adding it to a smaller number rounds the number to
+    /// a whole one in the low bits. This takes a third of the work of a conversion.
     static constexpr double rounder = 0x1.8p52;
     static constexpr std::uint64_t bits_of_rounder = std::bit_cast<std::uint64_t>(rounder);
-    /// Both numbers rounded to the nearest whole ones, plus `bits_of_rounder` each.
+    /// Both numbers, rounded to whole numbers; `bits_of_rounder` is added to each.
     static PairOfWords rounded(Pair units) { return std::bit_cast<PairOfWords>(units + rounder); }
 
-    /// Terms of collisions, summed in 64 bits first, because sums in 128 bits take twice the work.
-    /// The sum of `most_terms` terms of that size has 62 bits. Each term includes
-    /// `bits_of_rounder`.
+    /// Terms of collisions, summed in 64 bits first, because sums in 128
+    /// bits take twice the work. The sum of `most_terms` terms of the size
+    /// `most_gathered` has 62 bits. Each term includes `bits_of_rounder`.
     struct Gathered {
         PairOfWords normal{}, shear{}, flow{}; ///< both words of `shear` are equal
         std::uint64_t n = 0;
@@ -191,7 +191,7 @@ private:
 /// widths of cells. `from` and `to` are shares of the line, in order; columns and rows may lie
 /// outside the grid.
 template <class Act> void for_each_part_of_line(double u, double v, double du, double dv, Act act) {
-    // A function of its own, because std::floor is a function call
+    // Rounds down without std::floor, which would be a function call
     const auto cell = [](double place) {
         const auto whole = static_cast<std::int64_t>(place);
         return static_cast<double>(whole) > place ? whole - 1 : whole;

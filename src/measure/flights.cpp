@@ -23,7 +23,7 @@ std::span<const DiscState> Flights::flown(std::span<const DiscState> shown) {
     return flown_;
 }
 
-/// Starts all displacements here.
+/// Starts all displacements at the present positions.
 void Flights::begin(std::span<const DiscState> discs) {
     const double time = run_.system.clock(), unit = run_.system.velocity_unit();
     std::vector<FirstPlace> places;

@@ -24,7 +24,7 @@ public:
     void follow();
     /// The discs at positions that have not been brought back into the box since the last sync.
     std::span<const DiscState> flown(std::span<const DiscState> shown);
-    /// Starts all displacements here. **Collective.**
+    /// Starts all displacements at the present positions. **Collective.**
     void begin(std::span<const DiscState> flown);
     /// Mean squares of displacements along x and y since the beginning, and the mean
     /// product of velocities. **Collective.**

@@ -48,7 +48,7 @@ const FollowedStates& FollowedDiscs::now() {
     return states_;
 }
 
-/// A common motion is not diffusion (see centred_flights.hpp).
+/// Subtracts the common motion, which is not diffusion (see centred_flights.hpp).
 void FollowedDiscs::subtract_mean(const std::array<bool, 2>& is_apart) {
     const double length = run_.scene.box.longest() * 0x1p70;
     std::array<ExactSum, 5> sums = {ExactSum(0x1p70), ExactSum(length), ExactSum(length),

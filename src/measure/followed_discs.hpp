@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each disc's position and velocity by id, continued through periodic sides, and along periodic
-// axes relative to the centre of mass. For measurements that compare discs with themselves at other
-// times.
+// Each disc's position and velocity by id, continued through periodic sides,
+// and along periodic axes relative to the centre of mass. Measurements use
+// these to compare discs with their own states at other times.
 //
 // Discs are kept by runs of ids (pieces.hpp). Price of a sample: each disc is sent once.
 #pragma once
@@ -42,8 +42,8 @@ public:
     /// Stores or restores box lengths that discs have moved, so that a restart can follow them.
     /// **Collective.**
     void keep(KeptNumbers& kept);
-    /// Stores a number of each disc of all ranks, or restores those of this rank's run.
-    /// **Collective.**
+    /// Stores one number for each disc of all ranks, or restores
+    /// the numbers of this rank's run of ids. **Collective.**
     void keep(KeptNumbers& kept, std::vector<double>& of_discs) const;
 
 private:

@@ -17,7 +17,7 @@
 
 namespace carrom {
 
-/// The own discs at positions that no sync has changed since the last one.
+/// This rank's discs, at positions that were not brought back into the box since the last sync.
 DiscStates flown_on(const DiscSystem& system);
 
 class ImageCounts {
@@ -39,8 +39,8 @@ public:
         crossings_.insert(crossings_.end(), crossings.begin(), crossings.end());
     }
 
-    /// The counts of this rank's run of ids at the last sync. Call it often, because crossings
-    /// since the last call take memory. **Collective.**
+    /// The counts of this rank's run of ids at the last sync. Call it often, because all crossings
+    /// since the last call are in memory. **Collective.**
     std::span<const DiscImage> counts();
     /// Copies the counts into members of `places`, which has the same ids or is empty.
     /// **Collective.**

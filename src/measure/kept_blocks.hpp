@@ -12,9 +12,9 @@
 
 namespace carrom {
 
-/// Stores blocks behind a measurement's other numbers, or restores them. Checkpoints of Carrom 0.2
-/// have none: the curve then stays without errors, because no block has the samples before the
-/// restart.
+/// Stores blocks after a measurement's other numbers, or restores them.
+/// Checkpoints of Carrom 0.2 have no blocks: the curve then stays
+/// without errors, because no block has the samples before the restart.
 inline void keep_blocks(KeptNumbers& kept, VectorBlocks& blocks) {
     if (kept.is_restored() && kept.is_at_end()) return;
     std::vector<std::int64_t> words = blocks.words();

@@ -47,8 +47,8 @@ public:
             value = static_cast<T>(bits);
         }
     }
-    /// A part that begins with its length; `keep` visits its numbers. They go into the same list,
-    /// because a copy of each part would double the memory.
+    /// A part that begins with its length; `keep` visits its numbers. The numbers go into the same
+    /// list, because a copy of each part would double the memory.
     template <class Keep> void part(const Keep& keep) {
         std::int64_t size = 0;
         const std::size_t begin = words_.size() + 1;

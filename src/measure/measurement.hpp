@@ -90,7 +90,7 @@ public:
     virtual void end_interval() {}
     virtual void sample(const SampledState& state) = 0;
     /// Whether samples use velocities. If effects change the energy at syncs, such samples are
-    /// taken before and after the effects in turns, so that their mean equals the mean over time.
+    /// taken alternately before and after the effects, so that their mean is the mean over time.
     virtual bool has_velocities() const { return false; }
     /// Whether a sample moves discs in memory. It is then taken after all others.
     virtual bool moves_discs() const { return false; }
@@ -103,8 +103,8 @@ public:
 
     /// Tables of the samples so far, at least one. All ranks get the same.
     virtual std::vector<MeasuredTable> tables() const = 0;
-    /// A table that grows by a row at each sample, from row `first` on. Its file grows
-    /// as the run goes on, so its bytes never change.
+    /// A table that grows by a row at each sample, from row `first` on. Its file grows as the run
+    /// goes on, so the bytes of earlier rows never change.
     virtual std::optional<MeasuredTable> rows_from(std::size_t /*first*/) const {
         return std::nullopt;
     }
@@ -122,7 +122,7 @@ using Measurements = std::vector<std::unique_ptr<Measurement>>;
 struct MeasuredQuantity {
     Quantity declared;
     std::unique_ptr<Measurement> (*make)(MeasuredRun&, const Measurements& others);
-    /// Names of its tables other than its own name. "profiles_1" is one of "profiles".
+    /// Names of further tables of the quantity; "profiles_1" belongs to "profiles".
     std::vector<std::string_view> other_tables = {};
 };
 

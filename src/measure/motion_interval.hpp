@@ -33,10 +33,10 @@ public:
     MotionInterval(DiscSystem& system, const Communicator& ranks, const Pending& pending,
                    const MotionSample& last);
 
-    /// The last sample. Its integrals are those of flights since the sync before it.
+    /// The last sample. Its integrals cover the flights since the sync before this sample.
     const MotionSample& last() const { return last_; }
-    /// A sample of the present step. The difference of its integrals from those of `last` is the
-    /// integral over the interval. **Collective.**
+    /// A sample of the present step. Its integrals minus the integrals of `last` are the integrals
+    /// over the interval. **Collective.**
     MotionSample now() const;
     /// Starts the next interval with `now`, a sample of the present step.
     void begin(const MotionSample& now);

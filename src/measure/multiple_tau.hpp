@@ -37,7 +37,7 @@ public:
         const std::uint64_t half = points_ / 2;
         return n < half ? 1 : static_cast<std::size_t>(std::bit_width(n / half));
     }
-    /// Whether the first sample of level `level` is sample `n`.
+    /// Whether level `level` comes into use at sample `n`.
     bool begins(std::size_t level, std::uint64_t n) const {
         return level > 0 && n == (points_ / 2) << level;
     }

@@ -14,10 +14,10 @@ namespace carrom {
 
 namespace {
 
-/// The least number of samples in a run of the planned length. If a condition may end the run,
+/// The largest number of samples in a run of the planned length. If a condition may end the run,
 /// samples are as close as possible.
 constexpr std::int64_t wanted_samples = 32;
-/// Between samples discs move by about this many radii.
+/// Between samples discs at a typical speed move by at least this many radii.
 constexpr double radii_apart = 8;
 /// With more discs psi6 would hardly become more precise, and would take more time than everything
 /// else.
@@ -25,7 +25,7 @@ constexpr std::uint64_t most_discs = 4096;
 constexpr double longest_interval = 0x1p40;
 constexpr double golden_ratio = 0.6180339887498949;
 
-/// A scene without quantities.
+/// The measurements of a scene without quantities.
 const MeasurementOutput no_quantities;
 
 bool watches_order(const SceneParameters& scene) {
@@ -62,7 +62,7 @@ void OrderWatch::start() {
     has_begun_ = true;
 }
 
-/// The golden ratio spreads the shifts evenly for any period of a drive.
+/// Shifts by multiples of the golden ratio are spread evenly over the period of any drive.
 std::int64_t OrderWatch::step_of_next() const {
     const double next = static_cast<double>(samples_.size() + 1);
     const double shift = next * golden_ratio - std::floor(next * golden_ratio);

@@ -4,10 +4,10 @@
 //
 // A melting crystal has almost the pressure of the fluid, while its order falls by half. So psi6 is
 // sampled in every run that is denser than `least_watched_packing`, or that measures it anyway.
-// Between samples discs at a typical speed move at least eight radii, and a run of the planned
-// length has some 32 samples. At `most_samples` every second one is dropped, and later ones are
-// twice as far apart. Their times are slightly irregular, so that a periodic drive cannot look like
-// a trend.
+// Between samples discs at a typical speed move at least eight radii, and a run
+// of the planned length has at most some 32 samples. At `most_samples` every
+// second sample is dropped, and later samples are twice as far apart. Sample
+// times are irregular, so that a periodic drive cannot look like a trend.
 //
 // Price of a sample of psi6: a microsecond for each of at most 4096 discs, and an exchange of the
 // halo. That is the time of some five collisions of each disc. Memory: 24 bytes a sample.
@@ -28,8 +28,8 @@ namespace carrom {
 
 /// A number that is watched over the run.
 struct WatchedNumber {
-    std::string name; ///< one of OrderWatch::order_names, or "energy": of motion, rotation and
-                      ///< height
+    std::string name; ///< one of OrderWatch::order_names, or
+                      ///< "energy": kinetic, rotational and potential
     SampledMean mean;
     /// Means over the quarters of the run; NaN if the run is short
     std::array<double, 4> quarters{};
@@ -39,7 +39,7 @@ class OrderWatch : public StepAction {
 public:
     static constexpr double least_watched_packing = 0.65;
     static constexpr std::size_t most_samples = 64;
-    /// The modulus of the mean of psi6, and the mean modulus of discs
+    /// Names of the modulus of the mean of psi6, and of the mean modulus of discs
     static constexpr std::array<const char*, 2> order_names = {"psi6", "local_psi6"};
 
     /// All arguments must outlive this.
@@ -59,7 +59,7 @@ public:
 
 private:
     struct Sample {
-        double together = 0, local = 0, energy = 0; ///< order of all discs and of each; energy
+        double together = 0, local = 0, energy = 0; ///< |mean psi6|; mean |psi6|; energy
     };
 
     bool is_watching() const { return has_order_ || has_energy_; }

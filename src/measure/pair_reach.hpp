@@ -16,8 +16,8 @@ inline std::size_t n_bins_of(const MeasuredRun& run) {
 }
 
 Key largest_distance_key();
-/// Sets the distance if the scene does not: at most half of the smallest edge for centres of discs
-/// during the run.
+/// Sets the distance if the scene does not, and checks that it is at most half of the smallest edge
+/// that the region of discs' centres has during the run.
 void check_largest_distance(const SceneDraft& draft);
 /// After a restart walls may move by another distance than planned before. A stored distance that
 /// was not set by the scene stays valid if the box is large enough; otherwise this throws

@@ -34,9 +34,9 @@ public:
     double temperature() const; ///< temperature at the last sample
     // Means over the last interval:
     double mean_temperature() const { return pressures_[pressures_.size() - n_numbers + 3]; }
-    /// Kinetic energy. It is unknown after a restart, and between sheared sides.
+    /// The mean kinetic energy; unknown after a restart, and between sheared sides.
     double mean_energy() const { return mean_energy_; }
-    /// Time integral of stress times area over the last interval; per step, with the common drift.
+    /// Time integral of stress times area over the last interval, per step; it includes the drift.
     const Tensor& last_integral() const { return last_integral_; }
 
     /// Stores the data of `sampler`, or makes a sampler from stored data before any step.

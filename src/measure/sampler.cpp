@@ -103,8 +103,8 @@ void Sampler::sample_if_due() {
     if (run_.scene.measurements) measure_if_due();
 }
 
-/// At a sync the state after effects is only one of two values, so the state before them is
-/// sampled, too.
+/// At a sync the energy has two values, before and after
+/// effects. So the state before effects is sampled, too.
 void Sampler::sample_before_effects() {
     const std::int64_t step = run_.system.step();
     if (run_.system.micro_steps_done() % run_.scene.micro_steps != 0) return;

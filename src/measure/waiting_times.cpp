@@ -41,7 +41,7 @@ void WaitingTimes::add(std::size_t lag, std::uint64_t origin, std::span<const Mo
     cell(static_cast<std::size_t>(std::bit_width(origin)), lag).add(numbers);
 }
 
-/// Cells without origins are left out.
+/// Stores or restores all means; octaves and lags without origins are left out.
 void WaitingTimes::keep(KeptNumbers& kept) {
     std::size_t n_octaves = octaves_.size();
     kept(n_octaves);

@@ -33,22 +33,22 @@ public:
     /// `n_kinds`: number of kinds of discs for which each origin has means.
     explicit WaitingTimes(std::size_t n_kinds = 1) : n_kinds_(n_kinds) {}
 
-    /// Adds the origin with this number of a sample. `moved` has the means of all kinds.
+    /// Adds the origin at the sample with the number `origin`. `moved` has the means of all kinds.
     void add(std::size_t lag, std::uint64_t origin, std::span<const MovedDiscs> moved);
     void keep(KeptNumbers& kept);
     /// One row for each octave and lag, for one kind.
     MeasuredTable table(std::string name, std::size_t kind, const MultipleTau& scheme,
                         std::int64_t steps_per_sample) const;
-    /// Compares F_s of the earliest origins with F_s of origins in the second half of the run or
-    /// later.
+    /// Compares F_s of the earliest origins with F_s of late origins, in octaves that begin after
+    /// the first quarter of the run.
     struct Comparison {
         double early = 0, late = 0;
         std::uint64_t late_from = 0; ///< first sample of the late origins
         double deviation = 0;        ///< difference divided by its error; 0 if the error is unknown
     };
-    /// `length`: the lag's, in samples. The earliest origins lie within a quarter of it, so they
-    /// count as one. Late origins within two lengths count as one, whose variance is that of a
-    /// single origin.
+    /// `length` is the lag in samples. The earliest origins lie within a quarter of a lag, so they
+    /// count as one origin. Late origins within two lags count as one, and its variance is taken to
+    /// be that of a single origin.
     Comparison compare(std::size_t lag, std::size_t kind, std::uint64_t length,
                        std::uint64_t n_samples) const;
 

@@ -57,8 +57,8 @@ private:
     std::array<ExactSum, 4> sums_;
 };
 
-/// A quantity of collisions with the sides of the box. Each sample is the impulse or energy that
-/// each side has given to discs since the last sample.
+/// A quantity of collisions with the sides of the box. Each sample is the impulse or the energy
+/// that discs and each side have exchanged since the last sample.
 class WallMeasurement : public Measurement, public WallFollower {
 public:
     using Measurement::Measurement;
@@ -76,7 +76,7 @@ protected:
     virtual MeasuredTable means_of(const MeasuredTable& history) const = 0;
 
     double speed_scale_ = 0;    ///< typical speed, from which units of sums follow
-    std::vector<double> given_; ///< given by the four sides in each interval
+    std::vector<double> given_; ///< impulse or energy of the four sides in each interval
 };
 
 /// The length of a side at a step, or its mean between walls that swing.
@@ -96,7 +96,7 @@ struct MeanAndError {
 /// Means of all columns of `rows_over_time` except the two steps.
 std::vector<MeanAndError> means_over_time(const std::vector<std::vector<double>>& rows);
 
-/// The rule that walls exist at all times and on at least two sides.
+/// The rules that the box is not periodic along both axes and has no open side.
 template <bool (*is_measured)(const SceneParameters&)>
 std::vector<Rule> rules_of_walls(std::string_view quantity) {
     return {{.one = quantity,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The wave vectors of structure factors: those of a periodic box up to a length, in bins of their
-// lengths, with the setting and the rules that belong to them.
+// The wave vectors of structure factors: all vectors of a periodic box up to a largest length, in
+// bins of length, and the setting and the rules for them.
 #pragma once
 
 #include <span>
@@ -15,10 +15,10 @@ namespace carrom {
 inline constexpr QuantitySetting largest_wavenumber{"largest_wavenumber"};
 
 Key largest_wavenumber_key();
-/// There must be at least one wave vector, and at most a million, because each is evaluated for
-/// each disc.
+/// Checks that there is at least one wave vector, and at
+/// most a million, because each is evaluated for each disc.
 void check_wavenumber(const SceneDraft& draft);
-/// The rule that the box is periodic along both axes and that its images are at rest.
+/// The rules that the box is periodic along both axes and that its sides are not sheared.
 template <bool (*is_measured)(const SceneParameters&)>
 std::vector<Rule> rules_of_waves(std::string_view quantity) {
     return {

@@ -22,9 +22,9 @@ namespace carrom {
 void agree(const Communicator& communicator, bool ok, const std::string& text,
            ExitCode code = ExitCode::collective_failure, double patience_seconds = 30);
 
-/// Throws InputError with the problems of all ranks, in rank order, on every rank, if any rank has
-/// one. If there are more than `most` problems, the last one is the number of those left out.
-/// **Collective.**
+/// Throws InputError with the problems of all ranks, in rank order, on
+/// every rank, if any rank has one. If there are more than `most` problems,
+/// the last one gives the number of omitted problems. **Collective.**
 void agree_on_problems(const Communicator& communicator, const std::vector<Problem>& problems,
                        std::size_t most = 1000);
 

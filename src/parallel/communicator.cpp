@@ -72,7 +72,7 @@ int Communicator::size() const { return handle_->size; }
 Traffic Communicator::traffic() const { return handle_->traffic; }
 MPI_Comm native(const Communicator& communicator) { return communicator.handle().comm; }
 
-// Adding +0 turns -0 into +0, because the sign of a zero would depend on the order of ranks.
+// Adding +0 turns -0 into +0; otherwise the sign of a zero would depend on the order of ranks.
 double Communicator::max(double value) const {
     return reduce(*handle_, value, MPI_DOUBLE, MPI_MAX) + 0.0;
 }

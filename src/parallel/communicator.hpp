@@ -22,7 +22,7 @@ namespace carrom {
 
 class ExactSum;
 
-/// Types that can be sent as bytes. `bool` cannot, because a vector of it is not an array.
+/// Types that can be sent as bytes. `bool` cannot, because std::vector<bool> is not an array.
 template <class T>
 concept Message = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> &&
                   !std::same_as<T, bool>;
@@ -65,7 +65,7 @@ public:
     std::uint64_t sum(std::uint64_t value) const; ///< wraps around
     void sum(std::span<std::uint64_t> values)
         const; ///< element-wise, in place, wraps around; the same length on all ranks
-    /// Adds up over all ranks in place; the same bound on all ranks
+    /// Adds `value` up over all ranks, in place; its bound is the same on all ranks
     void sum(ExactSum& value) const;
     std::uint64_t sum_before(
         std::uint64_t value) const; ///< sum over the ranks below this one; 0 on rank 0
@@ -75,8 +75,8 @@ public:
     /// Returns when every rank has called it. **Collective.**
     void barrier() const;
 
-    /// Replaces the value on every rank by that of `root`. **Collective.** A span has the same
-    /// length on all ranks.
+    /// Replaces the value on every rank by the value on `root`.
+    /// **Collective.** A span has the same length on all ranks.
     void broadcast(std::string& text, int root = 0) const;
     void broadcast_bytes(std::span<std::byte> bytes, int root) const;
     template <Message T> void broadcast(T& value, int root = 0) const {

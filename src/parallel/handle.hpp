@@ -18,8 +18,8 @@
 
 namespace carrom {
 
-/// Tags in use. Neighbour exchanges get tags from `first_free` on, again from the first one after
-/// the last.
+/// Tags in use. Neighbour exchanges get tags from `first_free`
+/// to `last`, and then again from `first_free` on.
 namespace tag {
 inline constexpr int any_to_any = 1;
 inline constexpr int stream = 2;
@@ -49,7 +49,7 @@ struct Communicator::Handle {
 using Requests = std::vector<MPI_Request>;
 
 /// Starts sending `bytes` in pieces of at most `max_message`, and nothing if there are no bytes.
-/// They must stay unchanged until the wait.
+/// The bytes must stay unchanged until `wait_for` has returned.
 void start_send(Communicator::Handle& handle, std::span<const std::byte> bytes, int to,
                 int message_tag, Requests& requests);
 

@@ -17,7 +17,7 @@ bool is_first_process();
 /// processes are not connected, and all of them would write the same files.
 struct LoneProcess {
     std::string problem;  ///< empty if there is no problem
-    bool is_first = true; ///< among the processes that the launcher has started
+    bool is_first = true; ///< whether it is the first process that the launcher has started
 };
 
 /// `n_ranks` is the number of ranks according to MPI.

@@ -13,7 +13,7 @@
 
 namespace carrom {
 
-/// A hash that differs if ranks make the same call with different arguments.
+/// A hash by which ranks detect that they make the same call with different arguments.
 std::uint64_t hash_of_argument(std::string_view text);
 
 /// Returns when all ranks have reached the same call. Throws InputError on every rank if calls or
@@ -21,7 +21,7 @@ std::uint64_t hash_of_argument(std::string_view text);
 /// (code 70) after ten seconds. **Collective.**
 void meet(const Communicator& communicator, std::string_view call, std::uint64_t argument = 0);
 
-/// Tells the other ranks that this one leaves, and waits for them at the end.
+/// Informs the other ranks that this rank leaves, and waits for them when it is destroyed.
 class Departure {
 public:
     /// `communicator` must outlive this.
@@ -41,8 +41,8 @@ private:
     std::unique_ptr<Messages> messages_;
 };
 
-/// A communicator of the same ranks with separate messages. After Departure::leave ranks agree
-/// on their end through it, because others may still use the first one. **Collective.**
+/// A communicator of the same ranks with separate messages. After Departure::leave ranks agree on
+/// their end through it, because other ranks may still use the original.
 Communicator duplicate_of(const Communicator& communicator);
 
 } // namespace carrom

@@ -57,11 +57,11 @@ void on_failure(std::string_view text, const char* file, int line) {
     abort_all("internal error", std::string(text) + " (" + file + ':' + std::to_string(line) + ')');
 }
 
-/// A library called `exit`. Libraries of OpenMP and MPI end a process with the codes 1 and 2, which
-/// here mean a difference and a wrong input.
+/// Runs if a library calls `exit`. Libraries of OpenMP and MPI end a process with the codes 1 and
+/// 2, which in Carrom mean a difference and a wrong input.
 void end_after_library() {
     if (exit_now == Exit::regular) return;
-    // MPI has not ended regularly
+    // In all other cases MPI has not ended regularly
     if (exit_now == Exit::of_abort) std::_Exit(abort_code_now);
     abort_all("error",
               "MPI's or OpenMP's library has ended the program, perhaps with a message above; "
@@ -70,7 +70,7 @@ void end_after_library() {
               static_cast<int>(ExitCode::collective_failure));
 }
 
-/// Memory may run out on any thread in a parallel region, which exceptions must not leave.
+/// Aborts all ranks, because exceptions must not leave a parallel region.
 void on_no_memory() {
     abort_all("out of memory", "take fewer discs, or more ranks on more nodes",
               static_cast<int>(ExitCode::collective_failure));
@@ -129,7 +129,7 @@ void choose_settings() {
     if (has_launcher()) return;
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     // Such processes would all make a folder of the same name for data shared with others, which
-    // they do not need. If two start at once, one of them would fail.
+    // they do not need. If two start at the same time, one of them would fail.
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
     // Such processes send no messages, so they need no fast network. Where its libraries are
     // installed, initialising them takes 0.2 s.
@@ -244,7 +244,7 @@ Mpi::~Mpi() {
 int run_on_all(const Communicator& communicator,
                const std::function<int(const Communicator&)>& body, double patience_seconds) {
     const Outcome outcome = run(communicator, body);
-    // Rank 0 prints for all. If it does not have the error, the rank that waits for it prints it.
+    // Rank 0 prints for all ranks. If it lacks the error, the rank with the error prints it.
     if (communicator.is_root() && !outcome.text.empty()) {
         std::fflush(stdout);
         std::fprintf(stderr, "%s\n", printable(outcome.text, true).c_str());

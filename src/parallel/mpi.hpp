@@ -49,12 +49,12 @@ std::string mpi_version();
 /// program. If MPI does not end within ten seconds, this process ends itself with `code`.
 [[noreturn]] void abort_from_signal(std::string_view text, int code);
 
-/// Runs `body` on every rank and turns what it throws into an exit code: the program's only try and
-/// catch. InputError: rank 0 prints each problem on a line of standard error, 2. CollectiveError:
-/// rank 0 prints it, its code. Anything else: prints rank and text, aborts all ranks. All ranks
-/// return the largest code of any. Where the other ranks do not come to the same end within
-/// `patience_seconds`, a CollectiveError aborts them with its code, an InputError with 70.
-/// **Collective.**
+/// Runs `body` on every rank and turns exceptions into an exit code: the program's only try and
+/// catch. After an InputError rank 0 prints each problem on a line of standard error; the code is
+/// 2. After a CollectiveError rank 0 prints it; the code is the error's. After any other exception
+/// the rank prints its number and the text, and aborts all ranks. All ranks return the largest
+/// code. If other ranks do not reach the same end within `patience_seconds`, a CollectiveError
+/// aborts them with its code, an InputError with 70. **Collective.**
 int run_on_all(const Communicator& communicator,
                const std::function<int(const Communicator&)>& body, double patience_seconds = 30);
 

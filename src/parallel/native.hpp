@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// MPI's handle of `communicator`; it is valid as long as the latter. MPI_COMM_NULL if
-/// MPI has not been started. **Not collective.**
+/// MPI's handle of `communicator`, valid as long as `communicator` exists. MPI_COMM_NULL if MPI has
+/// not been started. **Not collective.**
 MPI_Comm native(const Communicator& communicator);
 
 } // namespace carrom

@@ -19,8 +19,8 @@ struct Header {
     std::uint64_t exchange = 0;
 };
 
-/// Slightly less than the size up to which common MPI libraries send at once, without a handshake
-/// (4096 in shared memory).
+/// Slightly less than the size up to which common MPI libraries send immediately, without a
+/// handshake (4096 in shared memory).
 constexpr std::size_t first_message_bytes = 3968;
 
 } // namespace

@@ -25,7 +25,7 @@ namespace carrom {
 /// in the next exchange already while its neighbour is still in this one.
 class NeighbourExchange {
 public:
-    /// Sends nothing, but all ranks must make their exchanges in the same order.
+    /// Sends nothing, but all ranks must construct their exchanges in the same order.
     explicit NeighbourExchange(const Communicator& communicator);
     ~NeighbourExchange();
     NeighbourExchange(NeighbourExchange&&) noexcept;
@@ -44,7 +44,7 @@ public:
     }
 
     /// Like exchange, but appends the arriving items to `values`, which saves a copy. Returns where
-    /// each neighbour's items begin in what was appended, and their number. **Collective.**
+    /// each neighbour's items begin among the appended ones, and their total. **Collective.**
     template <class Items, class Values>
     std::vector<std::size_t> append(std::span<const int> neighbours, const std::vector<Items>& out,
                                     Values& values) {

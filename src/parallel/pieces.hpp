@@ -4,7 +4,7 @@
 // The ids are cut into pieces whose length is a power of two, and each rank owns a run of whole
 // pieces. A counting sort finds the piece of each record. Then, round after round, each rank gets
 // its next piece in order. So the records never exist twice, and a piece is in cache when its rank
-// uses it. Records are sent for several rounds at once, so that ranks rarely wait for each other.
+// uses it. Records are sent for several rounds together, so that ranks rarely wait for each other.
 // Price: 4 bytes a record, and room for the records of some pieces. Each record is read three times
 // on its rank, and sent once if another rank owns it.
 #pragma once

@@ -5,8 +5,8 @@
 // the samples and cuts them into slices, and each record is sent once (Shi and Schaeffer 1992). The
 // number of samples of a rank is proportional to its records, so an uneven distribution does not
 // bias the cuts. Price: n log n / ranks comparisons, one any-to-any exchange, and about 64 samples
-// per slice on rank 0. With distinct records a slice exceeds its share by less than ranks / 64 of
-// it, by far less on data that is not made for it.
+// per slice on rank 0. If records are distinct, a slice exceeds its share by less than ranks / 64
+// of the share, and by far less unless the data are a worst case.
 #pragma once
 
 #include <algorithm>

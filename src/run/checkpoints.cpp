@@ -21,13 +21,13 @@ namespace carrom {
 namespace {
 
 constexpr double seconds_between_agreements = 0.5;
-/// A rank with more discs makes no copies.
+/// With more discs for each rank, on average, no copies are made.
 constexpr double most_copied = 1e6;
-/// Time between copies: each takes some 20 ns a disc, and about as long again for the measurements'
-/// data.
+/// Least seconds between copies, in all and for each disc of a rank. A copy takes some 20 ns a
+/// disc, and about as long again for the data of measurements.
 constexpr double seconds_between_copies = 0.02, seconds_per_copied_disc = 4e-6;
-/// Time in seconds for a step after a request to stop. If there is no copy of an earlier state, the
-/// step gets the time that it probably needs, up to the limit of batch systems.
+/// Seconds for a step after a request to stop. If no copies are made, the step gets twice the time
+/// of the last stretch, up to the limit of batch systems.
 constexpr double patience = 1, most_patience = 20;
 constexpr double longest_stretch = 1e15; // longest stretch, in steps
 
@@ -39,7 +39,7 @@ Checkpoints::Checkpoints(Run& run, std::optional<CheckpointOutput> wanted)
     kept_ = earlier_checkpoints(wanted_->folder, run.scene(), run.step(), ranks_);
     const std::string first = checkpoint_path(wanted_->folder, run.step());
     std::error_code ignored;
-    // Writes a checkpoint of the first step here, if the run was continued from another folder.
+    // A run that continues in its own folder already has a checkpoint of its first step.
     if (ranks_.any(ranks_.is_root() && std::filesystem::exists(first, ignored))) {
         last_written_ = run.step();
         kept_.push_back(first);
@@ -139,7 +139,7 @@ std::string Checkpoints::keep(std::int64_t step) {
 void Checkpoints::go_over_to(std::int64_t step) {
     if (last_written_ < 0) return;
     SceneParameters scene = run_.scene();
-    scene.accuracy.reset(); // the pilot has already chosen
+    scene.accuracy.reset(); // a pilot has already chosen method and micro-steps
     Tuning tuning;
     tuning.threads = run_.n_threads();
     tuning.ends_jams = false;
@@ -168,8 +168,8 @@ void Checkpoints::record_written(const std::string& path, std::int64_t step) {
     seconds_since_written_ = 0;
 }
 
-/// Freeing the blocks of a large file takes a fifth of the time of writing it, so this
-/// is done beside the steps.
+/// Freeing the blocks of a large file takes a fifth of the time of writing it, so another thread
+/// does this during the steps.
 void Checkpoints::remove_oldest() {
     const auto n_removed = std::max<std::ptrdiff_t>(
         0, std::ssize(kept_) - static_cast<std::ptrdiff_t>(wanted_->keep));

@@ -2,7 +2,7 @@
 // Decides when a run stores its state, and which stored states it keeps.
 //
 // After each stretch of steps ranks agree on two questions: has the batch system requested a stop,
-// and is a checkpoint due by wall time? If steps are slow, a stretch takes half a second. Price:
+// and is a checkpoint due by wall time? A stretch takes half a second, or one longer step. Price:
 // one reduction a stretch, also without checkpoints, because the run may have to stop.
 //
 // A step that lasts longer than a second after a request is abandoned, and leaves no consistent
@@ -37,7 +37,7 @@ public:
     Checkpoints(const Checkpoints&) = delete;
     Checkpoints& operator=(const Checkpoints&) = delete;
 
-    /// Includes steps that follow soon enough to notice a request to stop.
+    /// The next step at which a checkpoint or a test for a request to stop is due.
     std::int64_t next_due(std::int64_t step) const override;
 
     /// Stores the state if a checkpoint is due, after the other actions have made their work

@@ -35,7 +35,7 @@ std::size_t row_of(const SceneParameters& scene, DiscId id) {
 void set_species(SceneParameters& around, const SceneParameters& scene,
                  const CheckFailure& failure) {
     const SpeciesTable table(scene.effects.species, scene.radius);
-    std::vector<double> old_rows; // of the discs around, counted from 1
+    std::vector<double> old_rows; // former rows of the discs, counted from 1
     ContactEffect& contact = around.effects.contact;
     std::vector<double>& strengths = around.effects.field.strengths;
     contact.rows.clear();
@@ -88,7 +88,7 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
             "\n# Places count from the lower left corner of the box here, which keeps all bits.";
     around.origin = {};
     constexpr double turn = 2 * std::numbers::pi;
-    for (Boundary& side : around.effects.boundaries) side.inlet = {}; // nobody waits outside
+    for (Boundary& side : around.effects.boundaries) side.inlet = {}; // no discs wait outside
     for (Boundary& side : around.effects.boundaries)
         if (side.amplitude != 0)
             side.phase = turn *
@@ -107,7 +107,7 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
     around.effects.species.clear();
     around.first_numbers = {};
     if (!scene.effects.species.empty()) set_species(around, scene, failure);
-    around.effects.swap = {}; // other discs would exchange their radii
+    around.effects.swap = {}; // otherwise discs would exchange their radii
     around.groups.clear();
     around.freeze.clear(); // because the frozen discs are fixed bodies
     around.frozen.clear();

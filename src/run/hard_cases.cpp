@@ -22,8 +22,8 @@ double largest_speed(const DiscSystem& system, const Communicator& ranks) {
     return std::sqrt(ranks.max(square));
 }
 
-/// Images of discs are counted in 15 bits (core/image.hpp), and collisions may make
-/// the fastest disc twice as fast.
+/// The largest number of box lengths that the fastest disc may fly between syncs. Counters have 15
+/// bits (core/image.hpp), and collisions may double this disc's speed.
 constexpr double most_crossings = 8000;
 
 void refuse_long_flights(const SceneParameters& scene, double speed, double up) {
@@ -43,7 +43,7 @@ void refuse_long_flights(const SceneParameters& scene, double speed, double up) 
                                    std::ceil(crossings / most_crossings))}});
 }
 
-/// The distance that a disc flies in the rounding error of a time, which counts from the last sync.
+/// How far a disc flies in the rounding error of a time; times count from the last sync.
 double blurred_flight(const SceneParameters& scene, double speed) {
     return speed * static_cast<double>(scene.sync_every) * 0x1p-53;
 }
@@ -63,9 +63,9 @@ void refuse_blurred_places(const SceneParameters& scene, double speed) {
 /// The most ranks, at least 1, whose domains have no more discs in their halos than inside. At a
 /// packing of 0.5 a rank fetches discs from up to h = 8 mean distances away: 16 strips of 1250
 /// discs, 8.8 wide, have 1.65 halo discs for each own one (tests/performance/rank_loads.csv). With
-/// its halo, a strip of width w covers a width of w + 2 h, and a square of side s covers (s + 2
-/// h)^2. So half of the discs are own discs for a strip of w = 2 h = 16, and for a square of s = 2
-/// h / (sqrt(2) - 1) = 39, with 1500 discs.
+/// its halo, a strip of width w covers the width w + 2 h, and a square of side s covers (s + 2
+/// h)^2. Halo and domain are equal for a strip with w = 2 h = 16, and for a square with s = 2 h /
+/// (sqrt(2) - 1) = 39, which has 1500 discs.
 double most_ranks_of(const SceneParameters& scene) {
     constexpr double both_sides = 2 * 8;
     constexpr double least_square = both_sides / (std::numbers::sqrt2 - 1);
@@ -89,7 +89,7 @@ void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
                        const Communicator& ranks, const Messages& messages) {
     const double speed = largest_speed(system, ranks);
     refuse_blurred_places(scene, speed);
-    // In a flow along x, which is much faster than the relative motion of discs
+    // In shear the flow along x is much faster than discs relative to it, so y has its own speed
     const bool is_flow = scene.effects.are_sheared();
     refuse_long_flights(scene, speed, is_flow ? ranks.max(fastest_up(system.discs())) : speed);
     const double blur = blurred_flight(scene, speed);

@@ -17,13 +17,13 @@ namespace carrom {
 void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
                        const Communicator& ranks, const Messages& messages);
 
-/// Warns of discs at the scene's start for which rounding or the order of ids decides what happens:
-/// they overlap (in the time-stepped method), touch several others, or slide along each other.
+/// Warns of close pairs at the scene's start, where rounding or the order of ids decides: discs
+/// that overlap (in the time-stepped method), touch several others, or slide along each other.
 void warn_of_close_pairs(const SceneParameters& scene, const Totals& start,
                          const Messages& messages);
 
-/// Returns a warning if ranks own so few discs each that more lie in halos than in domains, and an
-/// empty text otherwise. The time-stepped method gets none, because its halos are not as deep.
+/// Returns a warning if ranks own so few discs that more lie in halos than in domains, and
+/// otherwise an empty text. It is empty for the time-stepped method, whose halos are not as deep.
 std::string warning_of_small_domains(const SceneParameters& scene, int n_ranks, int n_threads);
 
 } // namespace carrom

@@ -36,20 +36,20 @@ double smallest_radius(const SceneParameters& scene) {
 std::string remedy_of(const SceneParameters& scene) {
     if (!may_have_lasting_contacts(scene)) return "a longer effects.contact.contact_time";
     const double radius = smallest_radius(scene);
-    // About 2 g T for the longest default time T between syncs.
+    // The speed is about 2 g T, with the longest default time T between syncs.
     const double pull = std::hypot(scene.effects.acceleration().x, scene.effects.acceleration().y);
     return fmt::format("{} = {:.1g}", lasting_key, 0.5 * std::sqrt(pull * radius));
 }
 
-/// Collisions of a disc between two syncs in flows whose contacts last. Otherwise there are some
-/// hundred.
+/// Normal flows with lasting contacts have at most so many collisions of a disc between two syncs.
+/// If `speed` is too small there are about a hundred.
 constexpr double most_where_lasting = 30;
-/// Number of intervals between syncs for the mean.
+/// The rate of collisions is averaged over this number of intervals between syncs.
 constexpr std::int64_t intervals_of_flow = 16;
-/// A larger share of the speed at which discs pass each other is enough; a lower key is reported.
+/// Warns only if the scene's lasting_contacts.speed is below this share of the advised speed.
 constexpr double enough = 0.8;
 
-/// Rounded up to one digit.
+/// The value, rounded up to one significant digit.
 double rounded_up(double value) {
     const double digit = std::pow(10, std::floor(std::log10(value)));
     return value > 0 ? std::ceil(value / digit) * digit : 0;
@@ -121,7 +121,7 @@ std::string HeapWarning::text_on_flow(double per_step) const {
                        scene_.effects.lasting_speed, lasting_key, best);
 }
 
-/// The standard deviation of the discs' velocities, by their mass.
+/// The mass-weighted standard deviation of the discs' velocities.
 double HeapWarning::speed_of_passing() const {
     double mass = scene_.effects.species.empty() ? static_cast<double>(scene_.n_discs) : 0;
     for (const Species& one : scene_.effects.species)

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Warns once if discs lie on each other and so collide for ever, and if contacts that should last
-// do not, because discs flow past each other too fast.
+// Warns once if discs lie on each other and so collide without end, or if discs flow past each
+// other too fast for their contacts to last.
 //
 // A disc at rest collides a few times in each contact time. A flying disc collides far less often,
-// because its flights are much longer than a contact time. So more than one collision of a disc in
-// a contact time, averaged over the time between two syncs, distinguishes heaps from gases at any
-// speed and density. If contacts last, a disc collides a few times between two syncs. In a flow
-// with too small a `speed` it has about a hundred collisions, because faster contacts do not last,
-// and such discs bounce between their neighbours until the next sync. Price: a sum over discs and
-// ranks at each sync, only in scenes with falling discs and losses.
+// because its flights are much longer than a contact time. So heaps have more than one collision of
+// a disc in a contact time, on average between two syncs, and gases have fewer at any speed and
+// density. Lasting contacts leave a few collisions of a disc between two syncs. If `speed` is too
+// small for a flow, its discs bounce between neighbours instead, some hundred times until the next
+// sync. Price: a sum over discs and ranks at each sync, only in scenes with falling discs and
+// losses.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,8 @@ public:
     bool act() override;
 
 private:
-    /// The text of a warning for this number of collisions of a disc in a step; empty if there is
-    /// no reason.
+    /// The text of a warning for this number of collisions of a disc in a step; empty if discs are
+    /// not at rest on each other.
     std::string text_on_rest(double per_step) const;
     std::string text_on_flow(double per_step) const; ///< **Collective.**
     double speed_of_passing() const;                 ///< **Collective.**

@@ -21,8 +21,8 @@ std::string csv_of(const MeasuredTable& table, const std::string& scene_name);
 void write_tables(const SceneParameters& scene, const std::vector<MeasuredTable>& tables,
                   const Communicator& ranks);
 
-/// The files of tables that grow by a line at each sample. A line is in the file by the end of its
-/// step. Files end with whole lines, unless the machine fails.
+/// The files of tables that grow by a line at each sample. A sample's line is in the file at the
+/// end of its step. Files end with whole lines, unless the machine fails.
 class GrowingFiles {
 public:
     GrowingFiles(const SceneParameters& scene, const Communicator& ranks)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks that a run's discs fit into memory. Otherwise it would end later without a message.
+// Checks that a run's discs fit into memory; otherwise the system ends it without a message.
 #pragma once
 
 #include "parallel/communicator.hpp"

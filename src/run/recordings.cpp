@@ -18,9 +18,9 @@ namespace carrom {
 namespace {
 
 constexpr double seconds_between_commits = 0.8; ///< short enough for readers that follow a run
-constexpr double largest_share = 0.02;          ///< share of the time, for commits
+constexpr double largest_share = 0.02;          ///< largest share of time that commits may take
 
-/// The total order. q + 1 puts the wall, which is the largest number, before every disc.
+/// Compares by the total order. q + 1 turns the wall, the largest number, into 0: before all discs.
 bool comes_before(const Collision& a, const Collision& b) {
     const auto key = [](const Collision& c) {
         return std::tuple(c.micro_step, c.time, c.generation, c.p, c.q + 1);
@@ -31,7 +31,7 @@ bool comes_before(const Collision& a, const Collision& b) {
 } // namespace
 
 LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
-    // A collision at the end of a step belongs to that step, at the start of the run to step 1.
+    // A collision at the end of a step belongs to this step; at the start of the run, to step 1.
     const auto n_micro = std::max<std::int64_t>(
         1, static_cast<std::int64_t>(std::ceil(collision.time)));
     LoggedCollision entry;
@@ -115,10 +115,10 @@ bool Recordings::act() {
     if (log_) record_collisions(step);
     add_rows();
     ImageCounts* const counts = run_.images();
-    // Counted at each step, so that the memory of crossings stays small
+    // Crossings are counted at each step, because uncounted ones take memory
     if (counts) static_cast<void>(counts->counts());
     if (trajectory_ && step == last_frame(*scene_.trajectory, step)) {
-        std::vector<ComputedNumbers> computed; // first, because it moves discs in memory
+        std::vector<ComputedNumbers> computed; // computed first, because this moves discs in memory
         if (scene_.trajectory->computed != ComputedFieldSet{}) computed = computed_numbers(system);
         const std::vector<DiscImage> images = counts ? counts->now() : std::vector<DiscImage>{};
         trajectory_->append(step, system.shown(), system.clock(), system.side_columns(), computed,

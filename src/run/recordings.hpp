@@ -22,14 +22,14 @@
 
 namespace carrom {
 
-/// A collision as in the log: its step, and its time since the scene's start, in steps.
+/// The collision as the log stores it: with its step, and its time since step 0 in steps.
 LoggedCollision logged(const Collision& collision, std::int64_t micro_steps);
 
 class Recordings : public StepAction {
 public:
-    /// A restart opens the files and checks them, but writes nothing yet; it throws code 2 if it
-    /// cannot continue them. From then on the simulation logs its collisions here. All arguments
-    /// must outlive this object, which must outlive the run's steps. **Collective.**
+    /// A restart opens the files and checks them, but writes nothing yet; it throws (exit code 2)
+    /// if it cannot continue them. From here on the simulation collects its collisions for the log.
+    /// All arguments must outlive this object, which must outlive the run's steps. **Collective.**
     Recordings(Run& run, const Messages& messages);
 
     /// In a restart, cuts the files back to the present step; otherwise makes new files with the
@@ -42,7 +42,7 @@ public:
     /// Makes everything recorded so far permanent. **Collective.**
     void commit() override;
 
-    /// Commits at the end of the run, as all actions do. **Collective.**
+    /// Commits once more at the end of the run. **Collective.**
     void finish();
 
 private:

@@ -22,7 +22,7 @@ SceneParameters decided(SceneParameters scene, const RunStart& start, const Comm
     return scene;
 }
 
-/// **Collective.**
+/// The system of discs at the run's start, new or from a stored state. **Collective.**
 DiscSystem system_from(const SceneParameters& scene, RunStart& start, const Communicator& ranks,
                        const Tuning& tuning) {
     if (start.stored) return DiscSystem(scene, std::move(*start.stored), ranks, tuning);
@@ -39,7 +39,7 @@ Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const
       stop_(scene_, system_, ranks_, start.samples.stop), sampler_(scene_, system_, ranks_),
       watch_(scene_, system_, ranks_), heap_warning_(scene_, system_, ranks_, messages) {
     if (const double more = system_.engine().bytes_for_crowds(); more > 0 && !is_restart_)
-        check_memory(scene_, ranks_, more); // checked here, because positions are known only now
+        check_memory(scene_, ranks_, more); // checked here, because it needs the positions
     refuse_hard_cases(scene_, system_, ranks_, messages);
     if (start.counts_images || (scene_.trajectory && scene_.trajectory->has_image)) {
         images_.emplace(scene_.box, system_, ranks_);

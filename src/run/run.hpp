@@ -47,23 +47,23 @@ public:
     /// The averages and the scene's measurements.
     Sampler& sampler() { return sampler_; }
     const Sampler& sampler() const { return sampler_; }
-    /// Order and energy, if they may change although the averages do not show it.
+    /// Watches order and energy, which may drift although the averages do not show it.
     const OrderWatch& watch() const { return watch_; }
-    /// Counts of box lengths for a trajectory with images, or because the start requires them;
-    /// otherwise null. They continue from a checkpoint that has them.
+    /// Counts of crossed box lengths, if a trajectory has images or the start requires counts; null
+    /// otherwise. They continue from a checkpoint that contains counts.
     ImageCounts* images() { return images_ ? &*images_ : nullptr; }
     bool has_earlier_images() const { return has_earlier_images_; }
 
-    /// From now on calls `action` between steps, after the actions that were added before. It must
-    /// outlive the run's steps.
+    /// From now on calls `action` between steps, after the actions that were added before. The
+    /// action must outlive the run's steps.
     void add(StepAction& action) { actions_.push_back(&action); }
     /// The step at which the run ends: the scene's last one, or the present one if a condition of
     /// `[time.stop]` holds.
     std::int64_t last_step() const { return stop_.reason() ? stop_.reason()->step : scene_.steps; }
     const std::optional<StopReason>& stop_reason() const { return stop_.reason(); }
-    /// Advances to the end of `last_step`, or until the run ends before. Returns false if another
-    /// action ended it before. A failed check of `check_every_step` leaves a scene of the discs
-    /// around it. **Collective.**
+    /// Advances to the end of `last_step`, or to an earlier end of the run. Returns false if
+    /// another action ended the run. If a check of `check_every_step` fails, the discs around the
+    /// error are written as a scene. **Collective.**
     bool advance_to(std::int64_t last_step);
     const StretchSeconds& seconds() const { return seconds_; }
 

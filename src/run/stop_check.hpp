@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ends a run before its last step, by the conditions of `[time.stop]`.
 //
-// Conditions are checked at step 0, and at the end of each step in which there was a sync, because
-// the steps of syncs depend on the scene alone. Exact sums are compared, so the run ends at the
-// same step on any number of ranks and threads, and over restarts. The pressure is the mean since
-// the last check; a checkpoint stores the sums of the unfinished interval. Price of a check: at
-// most two passes over the discs. Without conditions nothing is done.
+// Conditions are checked at step 0, and at the end of each step with a sync. The steps of syncs
+// depend on the scene alone, and sums are exact. So the run ends at the same step on any number of
+// ranks and threads, and also after restarts. The pressure is the mean since the last check; a
+// checkpoint stores the sums of the unfinished interval. Price of a check: at most two passes over
+// the discs. Without conditions nothing is done.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ std::string text_of(const StopReason& reason);
 
 class StopCheck : public StepAction {
 public:
-    /// Continues from the data of a checkpoint, if there are any. Make it before any step. All
-    /// arguments must outlive this. **Collective.**
+    /// Continues from the data of a checkpoint, if there are any. Must be made before any step. All
+    /// arguments must outlive this object. **Collective.**
     StopCheck(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks,
               std::span<const std::int64_t> stored);
     StopCheck(const StopCheck&) = delete;

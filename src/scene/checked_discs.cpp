@@ -60,7 +60,7 @@ void check_species(const SceneDraft& draft) {
                                                     lists_bodies ? "discs.list" : "discs.columns"));
 }
 
-/// Checks numbers of columns beside the states.
+/// Checks numbers in columns other than the states (positions and velocities).
 void check_numbers(const SceneDraft& draft) {
     BySideColumn<bool> are_given;
     for (const SideColumn column : given_side_columns)
@@ -84,8 +84,8 @@ void check_numbers(const SceneDraft& draft) {
     });
 }
 
-/// Computes the count. It may be given, or follow from a list or from species. All of these must
-/// agree.
+/// Computes the number of discs. It is given, or follows from a list or from species; if several of
+/// them give it, they must agree.
 void fill_count(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     std::uint64_t n_in_species = 0;
@@ -113,7 +113,7 @@ void fill_count(const SceneDraft& draft) {
     }
 }
 
-/// Checks that widths of box and discs can be resolved in the precision of the scene.
+/// Checks that the scene's precision resolves the width of the box and the discs.
 void check_width(const SceneDraft& draft, double smallest_radius) {
     SceneParameters& scene = draft.scene;
     const double l = scene.box.longest(), r = smallest_radius;
@@ -134,7 +134,7 @@ void check_width(const SceneDraft& draft, double smallest_radius) {
                            "precision = \"single\" takes lengths from 2^-40 to 2^40 only");
 }
 
-/// Checks that the discs can fit at all.
+/// Checks that the discs are not too large or too many for the box.
 void check_sizes(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const auto& species = scene.effects.species;
@@ -158,8 +158,8 @@ void check_sizes(const SceneDraft& draft) {
     check_width(draft, smallest);
 }
 
-/// Warns of masses so different that light discs would be lost in sums over discs, which are whole
-/// multiples of a unit for the heaviest one (core/exact_sum.hpp).
+/// Warns of masses so different that sums over discs lose the light ones: sums are whole multiples
+/// of a unit that the heaviest disc sets (core/exact_sum.hpp).
 void warn_of_lost_masses(const SceneDraft& draft) {
     constexpr double most = 1e8;
     SceneParameters& scene = draft.scene;
@@ -232,7 +232,7 @@ bool fill_sizes(const SceneDraft& draft) {
 /// The lattice of a periodic box must fit it, and leave enough room for the discs.
 void check_triangular(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
-    // rules.cpp reports it
+    // walls are reported by rules.cpp
     if (!scene.effects.is_periodic_x() || !scene.effects.is_periodic_y()) return;
     const auto lattice = triangular_lattice(scene.n_discs, scene.box);
     if (!lattice)
@@ -252,7 +252,7 @@ void check_triangular(const SceneDraft& draft) {
                                nearest / 2));
 }
 
-/// Random insertion stalls at a packing fraction of about 0.54: denser gases start from a lattice.
+/// Random insertion stalls at a packing fraction of about 0.54, so denser gases need a lattice.
 void check_generator(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     check_regions(draft);

@@ -34,8 +34,8 @@ void take_origin(const SceneDraft& draft, std::span<const std::pair<const Key*, 
             move_places(*key, setting->value, origin.x, origin.y);
 }
 
-/// The origin must be near the box, because places lose digits if it is far away. Texts of the
-/// course have no origin.
+/// The origin must be near the box, because places lose digits if it is far away. Texts in the
+/// legacy format have no origin.
 void check_origin(const SceneDraft& draft) {
     constexpr double farthest = 1000;
     const SceneParameters& scene = draft.scene;
@@ -50,12 +50,12 @@ void check_origin(const SceneDraft& draft) {
                                  most, farthest));
 }
 
-/// Stores valid values in the scene; for lists the valid rows.
+/// Stores valid values in the scene. An array with invalid rows is stored without them.
 void take_values(const SceneDraft& draft) {
     for (const Table& table : tables()) {
         const auto& all = draft.settings.all();
         if (std::any_of(all.begin(), all.end(), [&table](const Setting& one) {
-                // Needed because 'discs.radius' is both a key and a table
+                // Needed for names that are both a key and a table, such as 'discs.radius'
                 const Key* key = find_key(one.key);
                 return key ? key->table() == table.name : one.key == table.name;
             }))

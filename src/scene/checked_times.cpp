@@ -16,7 +16,7 @@ namespace {
 /// checkpoints.
 constexpr std::int64_t most_samples_of_histories = 100000;
 
-/// A run of 0 steps only prints the start, and measures nothing.
+/// The first sample must be within the run. Runs of 0 steps measure nothing, so any step is valid.
 void check_first_sample(const SceneDraft& draft, std::string_view key, std::int64_t from) {
     const std::int64_t last = draft.scene.steps;
     if (from > last && last > 0)

@@ -102,7 +102,7 @@ private:
         if (!list) return refuse_type();
         check_pair(*list);
     }
-    /// One number, or an array of two.
+    /// Checks an edge length, or an array of two.
     void check_lengths() {
         const auto* list = std::get_if<Values>(&setting_.value.data);
         if (!list) return check_number();
@@ -124,7 +124,7 @@ private:
         if (setting_.is_wrong) return;
         setting_.value.data = std::move(numbers);
     }
-    /// Numbers such as 1e5 are also whole.
+    /// Checks a whole number, which may be written like 1e5.
     void check_integer() {
         const auto number = as_number(setting_.value);
         if (!number) return refuse_type();

@@ -8,15 +8,15 @@
 
 namespace carrom {
 
-/// Brings the value into the form that the key's `set` takes; or adds problems and
-/// marks it as wrong. An invalid row becomes `monostate`.
+/// Brings the value into the form that the key's `set` takes. If it is invalid, adds problems and
+/// marks the setting as wrong. An invalid row becomes `monostate`.
 void check_value(const Key& key, Setting& setting, Problems& problems);
 
 /// Text such as "a number greater than 0" or "an array of [x, y, radius]".
 std::string kind_text(const Key& key);
 /// Text such as "from 0 to 1" or "greater than 0"; empty if every number is allowed.
 std::string range_text(const Range& range);
-/// Human-readable: large powers of two are printed as 2^53.
+/// Human-readable text of a number: large powers of two are printed as 2^53.
 std::string number_text(double number);
 /// The shortest decimal that reads back as the same bits.
 std::string decimal_text(double number);

@@ -17,13 +17,13 @@ std::string shown(const Key& key, const SceneParameters& scene) {
     return value.is_nothing() ? "not set" : toml_text(key, value);
 }
 
-/// Empty if the key is equal in both, or is not compared.
+/// Describes the difference in a key; empty if both scenes agree or the key is not compared.
 std::string difference_in(const Key& key, const SceneParameters& there,
                           const SceneParameters& here) {
     const bool is_there = key.has_meaning(there), is_here = key.has_meaning(here);
     const bool is_about_generator = key.need && key.need->is_of_generator;
     if (!key.is_physical || key.is_same(there, here) || (!is_there && !is_here)) return {};
-    // The generator is reported already, so its keys are left out
+    // Keys of the generator are left out if the generator itself differs, which is reported
     if (is_there != is_here && is_about_generator) return {};
     if (key.has_rows()) return fmt::format("'{}' is another list there", key.name);
     return fmt::format("'{}' is {} there and {} here", key.name, shown(key, there),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of scenes that give other numbers to contacts of some species.
+// Rows of a scene that give contacts of some species their own numbers.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ std::vector<Field> contact_fields();
 std::optional<std::size_t> count_species_rows(const SceneDraft& draft);
 bool is_species_row(double number, std::size_t n_rows);
 
-/// Why the three numbers of `row` from index `first` on are wrong, or empty. `why_smooth` says
-/// without what the last two have no meaning; it is empty if they have one.
+/// Why the three numbers of `row` from index `first` on are wrong; empty if they are valid.
+/// `why_smooth` is the reason why the last two have no meaning; empty if they have a meaning.
 std::string problem_of_contact_numbers(const Numbers& row, std::size_t first,
                                        std::string_view why_smooth);
 

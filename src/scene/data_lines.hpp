@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The lines of a list of discs that contain data.
 //
-// A file of discs (`discs.file`) may come from another program. So in such a file `#` begins a
-// comment, commas or blanks separate numbers, and the first line may name the columns. Lines after
-// a legacy header, and those of `discs.from`, allow none of this. Price: one copy of each line that
-// has commas.
+// A file of discs (`discs.file`) may come from another program. So `#` begins a comment there,
+// commas or blanks separate numbers, and the first line may name the columns. Lines after a legacy
+// header, and lines of `discs.from`, have none of this. Price: one copy of each line that has
+// commas.
 #pragma once
 
 #include <cstdint>
@@ -41,13 +41,13 @@ private:
 /// `line` without a comment, in a file of discs.
 std::string_view without_comment(std::string_view line);
 /// Replaces the commas in `text`, so that it can be split at blanks. An empty field is joined to
-/// the next one, so that the result is not a number.
+/// the next field, so that the two together are an invalid number.
 void replace_commas(std::string& text);
 
-/// Whether the words are names of columns: more than one word, and none of them a number.
+/// Whether the words are column names: there are several words, and none of them is a number.
 bool are_names(const std::vector<std::string_view>& words);
-/// The column that another program calls by this name in a header line; upper and lower case are
-/// equal.
+/// The column that has this name in header lines of other programs; upper and lower case are the
+/// same.
 std::optional<DiscColumn> column_of(std::string_view name);
 
 /// The columns of the scene's lines of discs, in their order. `discs.columns` names either all

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The columns of a file of discs beyond ids, positions and velocities, which `discs.columns` names.
 //
-// The checks of a scene need radii and masses. All ranks need them, too, because a dynamics uses
-// those of any disc. So rank 0 reads the file twice: first these columns, then the discs.
+// The checks of a scene need radii and masses. All ranks need those of all discs, because the
+// dynamics uses them. So rank 0 reads the file twice: first these columns, then the discs.
 // Successive equal discs form one species. In the worst case each disc is a species of its own.
 #pragma once
 
@@ -33,8 +33,8 @@ bool lines_have_velocities(const SceneParameters& scene);
 double& number_of(DiscColumn column, SizeAndMass& body, BySideColumn<double>& beside);
 /// The column's name in scenes.
 const char* name_of(DiscColumn column);
-/// These functions append discs to a list. They add an entry only if the discs differ from those
-/// of the last entry.
+/// These functions append a disc to a list. They add an entry only if the disc differs from the
+/// discs of the last entry.
 void add_species(std::vector<Species>& species, const Species& next);
 void add_numbers(std::vector<NumberRun>& runs, std::uint64_t count, double number);
 

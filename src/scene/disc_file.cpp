@@ -79,7 +79,7 @@ private:
         found_.problems.push_back({place_, line, std::move(text)});
     }
 
-    /// Takes a line before the data, or the first line of data; then returns true.
+    /// Takes a line before the data, or the first line of data. Returns true for a line of data.
     bool take(std::string_view line) {
         if (lines_.line_number() == 1) {
             if (line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
@@ -109,7 +109,7 @@ private:
         return false;
     }
 
-    /// Comments of other programs contain names of their columns, and other words.
+    /// Takes the columns of a comment, if it consists of their names and contains no other words.
     void take_comment(const std::vector<std::string_view>& words) {
         std::string unknown;
         const Columns columns = columns_named(words, unknown);
@@ -146,7 +146,7 @@ private:
                                names_of(columns), names_of(columns_of_lines(scene_))));
     }
 
-    /// Guesses the columns before those of the scene from the number of words in a line.
+    /// Guesses the columns before `discs.columns` from the number of words in a line.
     void guess_columns(const std::vector<std::string_view>& words) {
         if (std::ranges::any_of(scene_.disc_columns,
                                 [](DiscColumn column) { return column < DiscColumn::radius; }))

@@ -17,9 +17,9 @@
 namespace carrom {
 
 struct SurveyOfDiscs {
-    /// Settings `key=value` that the scene does not contain itself
+    /// Settings `key=value` that the scene itself does not give
     std::vector<std::string> settings;
-    /// the file is not a list of discs, or has other columns than the scene
+    /// errors, such as another file format, or other columns than the scene's
     std::vector<Problem> problems;
 };
 

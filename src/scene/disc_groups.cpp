@@ -13,7 +13,7 @@ namespace carrom {
 
 namespace {
 
-/// Limited, because each group has sums over all ranks when discs get speeds
+/// The number is limited, because the speeds of each group need sums over all ranks
 constexpr std::size_t most_groups = 1000;
 
 /// The indices of the numbers in a row.
@@ -31,7 +31,7 @@ DiscGroup group_of(const Numbers& n) {
     DiscGroup group;
     if (n[at_count] >= 1 && n[at_count] <= static_cast<double>(largest_count))
         group.count = static_cast<std::uint64_t>(n[at_count]);
-    // The number of the species, which has not been checked yet
+    // This number of a species has not been checked yet
     const double species = n[at_species];
     if (species >= 1 && species <= static_cast<double>(largest_count))
         group.species = static_cast<std::size_t>(species) - 1;
@@ -62,7 +62,7 @@ Numbers row_of(const DiscGroup& group) {
     return row;
 }
 
-/// Rows without a count are left out. It is computed later, and then all rows are set again.
+/// Sets the rows that have a count. The other counts are computed later, and all rows set again.
 void set_groups(SceneParameters& scene, const Value& value) {
     scene.groups.clear();
     for (const Value& row : std::get<Values>(value.data))

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Groups of discs with different initial states: `discs.groups`.
 //
-// A group defines the number, species, region, placement and speed of its discs. Ids count by
-// species first, because a disc's species follows from its id (species.hpp), and by group within a
-// species.
+// A group defines the number, species, region, placement and speed of its discs. Ids are ordered by
+// species, because a disc's species follows from its id (species.hpp), and within a species by
+// group.
 #pragma once
 
 #include "scene/key.hpp"

@@ -182,7 +182,7 @@ std::string DiscReader::record_id(const Line& line) {
     if (has_seen(id)) return fmt::format("disc {} is listed twice", id);
     constexpr std::uint64_t most_without_n = std::uint64_t{1} << 27;
     const std::uint64_t most_seen = scene_.n_discs > 0 ? scene_.n_discs : most_without_n;
-    // Grows slowly, because N may be wrong
+    // Memory grows only with the ids found, because the scene's N may be wrong
     if (id >= seen_.size()) seen_.resize(std::min(most_seen, 2 * id + 64));
     if (id < seen_.size()) seen_[id] = true;
     n_seen_ += 1;
@@ -209,7 +209,7 @@ std::string DiscReader::missing_ids() const {
         if (has_seen(id)) continue;
         const DiscId first = id;
         while (id + 1 < seen_.size() && !seen_[id + 1]) ++id;
-        // No larger ids have been found
+        // All larger ids are missing, because none of them has been found
         if (id + 1 >= seen_.size()) id = scene_.n_discs - 1;
         if (++n_ranges > most_ranges)
             list += ", ...";

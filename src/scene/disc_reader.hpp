@@ -32,7 +32,7 @@ public:
     /// This many problems are listed; the rest are counted
     static constexpr std::size_t most_problems = 20;
     static constexpr std::size_t most_wrong_lines =
-        1'000'000; ///< after this many problems reading ends: the file is not a list of
+        1'000'000; ///< reading ends after this many problems, because the file is no list of
                    ///< discs
 
     /// A function that calls work(first, last) for ranges that together are 0 .. n - 1, on any
@@ -51,13 +51,13 @@ public:
     /// Reads a part; `stream` is at its first line. Does not test that ids occur once.
     DiscReader(std::istream& stream, const SceneParameters& scene, const Part& part);
 
-    /// Replaces `chunk` by at most `limit` further discs; returns false if none are left.
+    /// Replaces `chunk` by at most `limit` further discs; returns false if there were none.
     bool read(
         std::vector<InputDisc>& chunk, std::size_t limit,
         const InParts& in_parts = [](std::size_t n, const auto& work) { work(0, n); });
 
-    /// All errors of the lines, and missing ids. Call it after `read` has returned false, but not
-    /// for a part, for which line numbers are unknown.
+    /// All errors of the lines, and missing ids. Call it after `read` has returned false. Not for
+    /// parts, because they do not know their line numbers.
     std::vector<Problem> problems() const;
     /// Whether no wrong line has been found in a part so far.
     bool is_flawless() const {
@@ -70,7 +70,7 @@ private:
         std::size_t begin = 0, end = 0; ///< range of the line in `text_`
         std::int64_t number = 0;
         bool is_cut = false;
-        /// It is a disc with valid numbers; other errors are searched only then
+        /// The line has a valid id; other errors are searched only then
         bool has_number = false;
         InputDisc disc;
         std::string fault;
@@ -92,8 +92,8 @@ private:
     const SceneParameters& scene_;
     SpeciesTable species_;
     std::string place_;
-    /// False for `discs.from`, whose lines are not visible to the user, so problems name the discs
-    /// instead
+    /// False for `discs.from`: a user cannot see these lines, so problems contain the ids of discs
+    /// instead of line numbers
     bool has_lines_;
     std::vector<DiscColumn> columns_;
     std::optional<std::size_t> place_of_id_; ///< position of the id in a line
@@ -108,9 +108,9 @@ private:
     std::uint64_t n_problems_ = 0;
 };
 
-/// All problems that DiscReader finds in the lines of `stream`; no disc is kept. The scene may have
-/// problems itself. If its number of discs is 0, missing discs are not reported; if its box is 0,
-/// positions outside of it are not reported.
+/// All problems that DiscReader finds in the lines of `stream`; the discs are dropped. The scene
+/// may have problems itself. If its number of discs is 0, missing discs are not reported; if its
+/// box is 0, positions outside of the box are not reported.
 std::vector<Problem> disc_line_problems(std::istream& stream, const SceneParameters& scene);
 
 } // namespace carrom

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// 10^(k / n) is whole or irrational, so all machines round `every_steps` times it in the same way.
+/// Equal on all machines: 10^(k / n) is whole or irrational, so no product lies at half a step.
 double growing_step(const TrajectoryOutput& output, std::int64_t k) {
     return std::round(
         static_cast<double>(output.every_steps) *

@@ -2,9 +2,9 @@
 // Discs of the initial state that became fixed bodies: `discs.freeze`, and `freeze = true` in a
 // group.
 //
-// They are known when the discs have positions. From then on they are fixed bodies of the scene,
-// which contains only the other discs. A setting, `discs.frozen`, lists them. Checkpoints store
-// settings, so a restart need not make the initial state again.
+// They are known when the discs have positions. From then on the scene has them as fixed bodies,
+// and only the other ones as discs. The setting `discs.frozen` lists the fixed ones. Checkpoints
+// store settings, so a restart need not make the initial state again.
 #pragma once
 
 #include <string>
@@ -21,13 +21,13 @@ std::vector<Key> keys_of_freezing();
 /// Why these discs, in the order of ids, cannot be fixed bodies; empty if they can.
 std::string problem_of_frozen(const SceneParameters& scene, const std::vector<FrozenDisc>& frozen);
 
-/// Makes the discs fixed bodies, and adds the setting that lists them. For a scene that freezes
-/// discs but does not contain them yet. `has_others_alone`: its species no longer include the
-/// frozen discs, because they were stored for the moving discs.
+/// Makes the discs fixed bodies, and adds the setting that lists them. The scene must freeze discs
+/// but not contain the frozen ones yet. `has_others_alone`: the scene's species are already without
+/// them, because they come from a state that has only the moving discs.
 void set_frozen(SceneParameters& scene, std::vector<FrozenDisc> frozen,
                 bool has_others_alone = false);
 
-/// Whether a setting is the one that set_frozen adds.
+/// Whether this is the setting that set_frozen adds.
 bool is_of_frozen(std::string_view setting);
 
 /// Checks the regions of `discs.freeze`.

@@ -18,7 +18,7 @@ namespace carrom {
 
 namespace {
 
-/// The longest line, because every double can be written in 30 characters.
+/// The longest line; a double needs at most 30 characters, so long rows fit.
 constexpr std::size_t most_characters = std::size_t{1} << 24;
 
 class Rows {

@@ -51,19 +51,19 @@ struct Range {
     std::string_view why = "";
 };
 
-/// The condition without which a key has no meaning.
+/// A condition that a key depends on: without it the key has no meaning.
 struct Need {
-    std::string text; ///< text that follows "has no meaning"
+    std::string text; ///< describes the missing condition, after the words "has no meaning"
     std::function<bool(const SceneParameters&)> holds;
     bool is_of_generator = false; ///< the condition depends on discs.generator only
 };
 
-/// One of the numbers of a row: a single field without a name for Kind::rows, the fields of a table
-/// for Kind::tables. Numbers that the form calls x or y, or x0, y0, x1 and so on, are places
-/// (scene/places.hpp).
+/// A number of a table, or all numbers of a row: Kind::tables has one field for each key of a
+/// table, Kind::rows one field without a name. Numbers that the form calls x or y, or x0, y0, x1
+/// and so on, are places (scene/places.hpp).
 struct Field {
     std::string_view name;
-    std::string_view form; ///< such as "[x, y, radius]"
+    std::string_view form; ///< the shape of the numbers, such as "[x, y, radius]"
     std::size_t least = 1, most = 1;
     std::optional<double> fallback = {}; ///< NaN: the number may be missing
     /// The allowed words; the stored number is the index of the word. The words "false" and "true"
@@ -73,12 +73,12 @@ struct Field {
     bool is_flag() const { return !words.empty() && words.front() == "false"; }
 };
 
-/// Made by the function `key` (key_members.hpp). Functions that return `Key&&` add to the
-/// declaration.
+/// A key of scenes, made by the function `key` (key_members.hpp). The functions below that return
+/// `Key&&` complete the declaration.
 struct Key {
     std::string name;
     std::string_view unit, help;
-    std::string_view fallback = ""; ///< text for the default, if words are better than the value
+    std::string_view fallback = ""; ///< describes the default, if words are better than the value
     Range range = {};
     std::optional<Need> need = {};
     bool is_required = false;                      ///< required if its condition holds
@@ -98,12 +98,12 @@ struct Key {
     // The following members are filled in from the member of SceneParameters.
     Kind kind = Kind::number;
     std::vector<std::string_view> words = {};
-    /// Old names and new ones
+    /// Old words of the key, each with the word that replaces it
     std::vector<std::pair<std::string_view, std::string_view>> old_words = {};
     /// Returns the value, or nothing if it need not be written.
     std::function<Value(const SceneParameters&)> get = {};
     std::function<void(SceneParameters&, const Value&)> set = {};
-    /// Whether two scenes are equal here; set if `get` does not contain everything.
+    /// Whether the key is equal in two scenes; set if `get` does not return all of its value.
     std::function<bool(const SceneParameters&, const SceneParameters&)> compare = {};
 
     using Names = std::vector<std::string_view>;
@@ -151,7 +151,7 @@ struct Rule {
     std::string_view one, other, why;
     /// The problem is reported at the first of these keys that the scene has
     std::vector<std::string_view> keys;
-    std::optional<BoundaryKind> boundary = {}; ///< or, if set, at the first side of this kind
+    std::optional<BoundaryKind> boundary = {}; ///< if set: or at the first side of this kind
     bool (*is_broken)(const SceneParameters&);
 };
 
@@ -163,8 +163,8 @@ const std::vector<Rule>& rules();
 const Key* find_key(std::string_view name);
 const Table* find_table(std::string_view name);
 
-/// The scene's effects with the micro-step as the unit of time, as a dynamics needs them. The units
-/// of the keys determine which numbers change.
+/// The scene's effects with the micro-step as the unit of time, as the dynamics needs them. Numbers
+/// are converted by the units of their keys.
 Effects per_micro_step(const SceneParameters& scene);
 
 std::vector<Key> keys_of_discs();

@@ -179,7 +179,7 @@ template <class Enum> void add_words(Key& key) {
     }
 }
 
-/// A key that has no member yet.
+/// Makes a key that is not connected to a member of SceneParameters yet.
 inline Key named_key(std::string name, std::string_view unit, std::string_view help) {
     Key named;
     named.name = std::move(name);
@@ -188,7 +188,7 @@ inline Key named_key(std::string name, std::string_view unit, std::string_view h
     return named;
 }
 
-/// The complete key: `member` takes a scene, const or not, and returns a reference to the member.
+/// The complete key: `member` returns a reference to the key's member of a scene, const or not.
 template <class Get>
 Key key(std::string name, std::string_view unit, std::string_view help, const Get& member) {
     Key declared = named_key(std::move(name), unit, help);

@@ -22,7 +22,7 @@ const Need equal_discs{"where 'discs.species', 'discs.list' or 'discs.columns' n
                        }};
 const Need listed{"without discs.generator = \"file\"",
                   [](const SceneParameters& s) { return s.generator == Generator::file; }, true};
-/// Whether velocities are drawn: positions are generated, or listed together with a speed or a
+/// Whether initial velocities are random: discs are generated, or listed together with a speed or a
 /// temperature.
 bool are_drawn(const SceneParameters& s) {
     return s.generator == Generator::file ? s.draws_velocities : s.generator != Generator::legacy;
@@ -149,7 +149,7 @@ Key packing_key() {
     return key;
 }
 
-/// The number is unknown until the file of `discs.file` or `discs.from` is read.
+/// The key of N, which is 0 until the file of `discs.file` or `discs.from` is read.
 Key count_key() {
     Key count = key("discs.count", "discs",
                     "N, the number of discs; a list, a file, species or groups give it too.",
@@ -195,8 +195,8 @@ std::vector<Key> keys_of_other_runs() {
     };
 }
 
-/// Together with a list it is written even if it is the default, because it means that velocities
-/// are drawn.
+/// With a list of discs the speed is written even if it is the default, because its presence means
+/// that velocities are drawn.
 Key speed_key() {
     Key speed = key("discs.speed", "length/step",
                     "Root mean square of the speeds at the start; the heavier count more, by their "

@@ -27,8 +27,8 @@ void add_region(std::vector<RegionRun>& runs, std::uint64_t count, const Numbers
         runs.push_back({end, region});
 }
 
-/// Rows without a count are left out. It is computed later (species_counts.cpp), and then all rows
-/// are set again.
+/// Stores the rows that have a count. The other counts are computed later (species_counts.cpp), and
+/// then all rows are stored again.
 void set_species(SceneParameters& scene, const Value& value) {
     FirstNumbers numbers;
     std::vector<RegionRun> regions;
@@ -70,8 +70,8 @@ public:
                 numbers_[column] = scene.first_numbers[column];
     }
 
-    /// The row of the discs of one species from `first` on. `end` is the limit, and becomes the end
-    /// of the row.
+    /// The row for the next discs of a species, from `first` on. `end` is at most the given value,
+    /// and becomes the end of the row.
     Numbers next(const Species& one, DiscId first, DiscId& end) {
         Numbers row(species_row::share_of_area + 1, not_given);
         row[species_row::radius] = one.radius;

@@ -10,7 +10,7 @@
 
 namespace carrom {
 
-inline constexpr int legacy_header_lines = 5; ///< number of lines of a header without blank lines
+inline constexpr int legacy_header_lines = 5; ///< number of lines, if none is blank
 
 /// Adds the settings in the header `text`. `discs_follow`: lines of discs follow in the input.
 void add_legacy_header(Settings& settings, Problems& problems, std::string_view text,

@@ -94,11 +94,11 @@ struct Room {
     double low = 0, high = 0;
 };
 
-/// L - r and the program that wrote the input round to within an ulp of L, at most 2^-52 L. A disc
-/// leaves an open side when its centre is a radius beyond it.
+/// Bounds of centres. The upper one allows for rounding of L - r here and in the program that wrote
+/// the input, an ulp of L, at most 2^-52 L. Discs leave an open side a radius beyond it.
 Room room_along(Axis axis, const SceneParameters& scene, double radius) {
     const bool is_x = axis == Axis::x;
-    const Extent walls = extent_at(scene.effects, scene.box, 0); // sides may swing
+    const Extent walls = extent_at(scene.effects, scene.box, 0); // at time 0: sides may swing
     const double length = along(axis, scene.box), slack = 0x1p-52 * length;
     if (is_x ? scene.effects.is_periodic_x() : scene.effects.is_periodic_y()) return {0, length};
     const auto inwards = [&](std::size_t side) {
@@ -132,8 +132,8 @@ std::string room_text(const SceneParameters& scene, double radius) {
                                                     : "");
 }
 
-/// Advice for a disc that was half way through open sides in the run from which it comes. Empty if
-/// it does not overlap a closed side.
+/// Advice for a disc that was crossing an open side in the run from which it comes. Empty if it
+/// overlaps no closed side.
 std::string hint_of_sides(const InputDisc& disc, const SceneParameters& scene, double radius) {
     if (scene.discs_from.empty()) return "";
     const std::array<double, 4> beyond = {-disc.x, disc.x - scene.box.x, -disc.y,

@@ -12,7 +12,7 @@
 namespace carrom {
 
 inline constexpr double smallest_length = 0x1p-230;
-inline constexpr double smallest_size = 0x1p-250; ///< the limit for speeds
+inline constexpr double smallest_size = 0x1p-250; ///< the smallest positive speed
 inline constexpr double largest_size = 0x1p+250;
 inline constexpr std::uint64_t largest_count =
     0xFFFFFFFEu; ///< indices have 32 bits, and one value means "none"
@@ -23,14 +23,14 @@ inline constexpr double largest_packing =
 /// Above about 0.54 random insertion takes too long
 inline constexpr double largest_random_packing = 0.5;
 inline constexpr std::int64_t longest_single_sync =
-    4096; ///< up to this a float still resolves 1/2048 of a micro-step
+    4096; ///< largest number of micro-steps in single precision: floats resolve 1/2048 of each
 inline constexpr double smallest_single_size = 0x1p-40,
                         largest_single_size = 0x1p+40; ///< fourth powers of such sizes are floats
 inline constexpr double largest_box_in_radii =
-    1e6; ///< beyond this the wall band 1e-8 r is less than the rounding of L
-inline constexpr double longest_drag = 4; ///< rate of drag times the time between syncs
+    1e6; ///< largest ratio L / r: beyond it the rounding of L exceeds the wall band 1e-8 r
+inline constexpr double longest_drag = 4; ///< limit of drag's rate times the time between syncs
 inline constexpr double most_crossings =
-    0x1p40; ///< crossings in a micro-step; beyond this all collisions have the same time
+    0x1p40; ///< limit of crossings in a micro-step; beyond it all collisions have equal times
 
 /// The largest sum of the radii of a fixed body and a disc, relative to a periodic box, so that a
 /// disc touches only the nearest images of a body.
@@ -41,22 +41,22 @@ bool are_pairs_lossy(const Effects& effects);
 /// Whether discs may come to rest on each other, or on a wall, so that a contact time is needed.
 bool lose_energy_or_fall(const Effects& effects);
 
-/// The problem with a velocity component, or empty.
+/// The problem with a velocity component; empty if it is valid.
 std::string velocity_problem(double component);
 
-/// The problem with a speed in this scene, for its box and method, or empty. The box may be 0.
+/// The problem with a speed for the scene's box and method; empty if it is valid. The box may be 0.
 std::string speed_problem(double speed, const SceneParameters& scene);
 
-/// A warning about discs so fast that the unit of their speed may be wrong, or empty. `fastest` is
-/// the largest speed at the start, `later` a speed that walls and effects give to discs.
+/// A warning about discs so fast that the unit of speed may be wrong, or an empty text. `fastest`
+/// is the largest speed at the start, `later` a speed that walls and effects give to discs.
 std::string units_warning(double fastest, double later, const SceneParameters& scene);
 
-/// The problem with a disc's radius, mass or number in another column, or empty.
+/// The problem with a disc's radius, mass or number in another column; empty if it is valid.
 std::string column_problem(DiscColumn column, double number);
 
-/// All problems with a disc in an input, or empty: a centre outside [r, L-r] with r its `radius`
-/// (by more than the rounding of L), or a velocity out of range. If the scene has no valid box, any
-/// centre is accepted.
+/// All problems with a disc in an input; empty if there are none: a centre outside [r, L-r] by more
+/// than the rounding of L, with r its `radius`, or a velocity out of range. If the scene has no
+/// valid box, any centre is accepted.
 std::string disc_problem(const InputDisc& disc, const SceneParameters& scene, double radius);
 
 } // namespace carrom

@@ -29,7 +29,7 @@ bool LineReader::next(std::string_view& line) {
         searched = available;
         if (refill()) continue;
         if (available == 0) return false;
-        line = {buffer_.data() + begin_, available}; // the last line, which has no end
+        line = {buffer_.data() + begin_, available}; // the last line, which has no line end
         take(available);
         break;
     }
@@ -42,8 +42,8 @@ void LineReader::take(std::size_t n_bytes) {
     bytes_left_ -= std::min<std::uint64_t>(n_bytes, bytes_left_);
 }
 
-/// The number of characters before the first line end in the buffer, or of the whole buffer. The
-/// first `searched` characters contain no line end.
+/// The number of characters before the first line end in the buffer, or in the whole buffer if it
+/// has none. The first `searched` characters are known to have none.
 std::size_t LineReader::find_line_end(std::size_t searched) const {
     const char* first = buffer_.data() + begin_;
     const std::size_t available = end_ - begin_;

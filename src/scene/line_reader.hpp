@@ -2,8 +2,8 @@
 // Reads lines of a stream in bounded memory, so that a line without an end does not fill the
 // memory.
 //
-// It reads blocks, so other readers of the stream cannot read the text directly behind the last
-// line.
+// It reads whole blocks. So after the last line, other readers of the stream do not find the text
+// that follows directly.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,8 @@ public:
 
     std::int64_t line_number() const { return line_number_; }
     bool is_cut() const { return is_cut_; }
-    bool is_endless() const { return is_endless_; }   ///< `next` ended because it skipped too much
-    bool has_failed() const { return stream_.bad(); } ///< `next` ended before the end of the stream
+    bool is_endless() const { return is_endless_; }   ///< `next` ended after skipping too much
+    bool has_failed() const { return stream_.bad(); } ///< `next` ended because of a read error
 
 private:
     bool refill();
@@ -44,7 +44,7 @@ private:
     std::vector<char> buffer_;
     std::size_t begin_ = 0, end_ = 0;
     std::int64_t line_number_;
-    std::uint64_t bytes_left_; ///< number of bytes in which further lines may begin
+    std::uint64_t bytes_left_; ///< number of bytes in which a line may still begin
     bool is_cut_ = false, is_endless_ = false;
 };
 

@@ -26,7 +26,7 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given, 
     const bool lists_discs = list_discs(given);
     if (lists_discs) settings.remove("discs.generator");
     SceneParameters chosen;
-    chosen.draws_velocities = were_listed; // listed discs keep a speed of the input
+    chosen.draws_velocities = were_listed; // because listed discs may keep the input's speed
     if (given.is_right("discs.generator"))
         find_key("discs.generator")->set(chosen, given.find("discs.generator")->value);
     else if (lists_discs)
@@ -39,8 +39,8 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given, 
     });
 }
 
-/// Stores the valid settings in scenes, except lists, which are long, and tables that a scene may
-/// lack.
+/// Stores the valid settings in scenes, except lists of rows, because they are long, and tables
+/// that a scene may lack.
 void take_right_values(const std::vector<Setting>& all,
                        std::initializer_list<SceneParameters*> scenes) {
     for (const Setting& one : all) {
@@ -55,8 +55,8 @@ void take_right_values(const std::vector<Setting>& all,
     }
 }
 
-/// Removes keys of the input that have no meaning for a word of the command line, such as the
-/// strength of kicks for kind = "langevin", and keys that need a removed one.
+/// Removes keys of the input that have no meaning with a word of the command line, and keys that
+/// need a removed key. For example, kind = "langevin" removes the strength of kicks.
 void remove_keys_of_other_kinds(Settings& settings, const Settings& given) {
     const auto has_word_for = [&given](const Key& other) {
         return std::any_of(given.all().begin(), given.all().end(), [&other](const Setting& one) {
@@ -103,7 +103,7 @@ void remove_other_forms(Settings& settings, const Settings& given) {
     });
 }
 
-/// Removes settings of the input that cannot be given together with those of the command line.
+/// Removes settings of the input that the settings of the command line exclude.
 void remove_rivals(Settings& settings, const Settings& given) {
     const bool were_listed = list_discs(settings);
     for (const Key& key : keys()) {
@@ -131,7 +131,7 @@ void add_table(Settings& given, Problems& problems, const Place& place, const st
     }
 }
 
-/// A word without the quotes that TOML requires.
+/// The text of a word, without quotes if it has any.
 std::string unquoted(const std::string& word) {
     const bool is_quoted = word.size() > 1 && (word[0] == '"' || word[0] == '\'') &&
                            word.back() == word[0];
@@ -173,8 +173,8 @@ void add_overrides(Settings& settings, Problems& problems,
         const Key* key = find_key(name);
         if (equals == std::string::npos || name.empty()) {
             add_problem(problems, place, form_problem(text));
-        } else if (text.find('\n') != std::string::npos) { // because it must fit on one line of a
-                                                           // file
+        } else if (text.find('\n') != std::string::npos) { // a scene's copy stores it on one
+                                                           // line
             add_problem(problems, place,
                         fmt::format("must stand on one line, not {}", in_quotes(word)));
         } else if (word.starts_with('{') && find_table(name)) {

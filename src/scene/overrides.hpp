@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settings from the command line, `key=value`. They replace settings of the input, also those that
-// cannot be given together with them: `discs.packing` replaces a radius, and another generator
-// replaces the keys that have no meaning for it.
+// Settings from the command line, `key=value`. They replace equal keys of the input, and keys that
+// they exclude: `discs.packing` replaces a radius, and another generator replaces the keys that
+// have no meaning for it.
 #pragma once
 
 #include <string>

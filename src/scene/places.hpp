@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places in the coordinates of users, which begin at `box.origin`, and in those of the computation,
-// which begin at the lower left corner of the box. Scenes, texts, messages and tables use the
-// first; states and the raw data of files use the second, so that no bit of a run depends on the
+// Places in users' coordinates, which begin at `box.origin`, and in computed coordinates, which
+// begin at the lower left corner of the box. Scenes, texts, messages and tables use the former.
+// States and the raw data of files use the latter, so that no bit of a run depends on the
 // origin.
 //
 // A key declares which of its numbers are places: by `place_along`, or by the names in the form of
@@ -25,17 +25,17 @@ namespace carrom {
 std::optional<Axis> axis_of(const Key& key, std::size_t number);
 bool has_places(const Key& key);
 
-/// Adds to all places of a checked value.
+/// Adds dx or dy to all places of a checked value.
 void move_places(const Key& key, Value& value, double dx, double dy);
 
-/// Sets the origin of a scene whose box is known. The box is 0 if it is wrong.
+/// Sets the origin of a scene whose box is known; the box is 0 if its value is wrong.
 void find_origin(SceneParameters& scene);
 
-/// The shortest decimal from which this coordinate of the computation can be read back exactly.
+/// The shortest decimal from which the coordinate `place` can be read back exactly.
 std::string shown_coordinate(double place, double origin);
-/// "(1.5, -2)".
+/// Text such as "(1.5, -2)", in users' coordinates.
 std::string shown_place(const SceneParameters& scene, double x, double y);
-/// ", whose lower left corner is at (-5, -5)"; empty if it is at (0, 0).
+/// Text such as ", whose lower left corner is at (-5, -5)"; empty if the corner is at (0, 0).
 std::string corner_text(const SceneParameters& scene);
 
 } // namespace carrom

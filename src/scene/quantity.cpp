@@ -9,7 +9,7 @@ namespace carrom {
 
 namespace {
 
-/// A local static, so that declarations may come before the static data of this file are
+/// A local static, because declarations may come before this file's static data are
 /// initialised.
 std::vector<Quantity>& list() {
     static std::vector<Quantity> declared;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The declaration of a quantity of [output.measurements]: its keys, rules of conflict, checks, and
-// text for the pages. The code that measures it is in a higher module, src/measure, with its
+// text for the pages. The code that measures it is in a higher module, src/measure, and so is its
 // declaration. A program that measures passes the declarations down when it starts. The reader, the
 // pages and the checks loop over the list, so they contain the name of no quantity.
 #pragma once
@@ -19,20 +19,20 @@ struct Quantity {
     std::string_view help;           ///< the quantity's text on the page of keys
     std::vector<Key> keys = {};      ///< settings of the quantity; several quantities can share one
     bool has_history = false;        ///< whether its tables grow with each sample
-    bool follows_collisions = false; ///< whether it needs each collision; a GPU does not list them
+    bool follows_collisions = false; ///< whether it needs each collision; GPUs do not list any
     std::vector<Rule> rules = {};    ///< features with which it cannot be combined
     void (*check)(const SceneDraft&) = {}; ///< called if box and discs are valid; a check that
                                            ///< quantities share runs once
     void (*check_times)(const SceneDraft&) = {}; ///< called when the times of the scene are known
 };
 
-/// Call it once, before any scene is read.
+/// Stores the declarations. Call it once, before any scene is read.
 void declare_quantities(std::vector<Quantity> quantities);
 
 const std::vector<Quantity>& declared_quantities();
 
-/// The key of the quantities to measure. Problems of settings that the scene does not give are
-/// reported at this key.
+/// The key that lists the quantities to measure. If a quantity's setting is missing in the scene,
+/// its problems are reported at this key.
 inline constexpr std::string_view quantities_key = "output.measurements.quantities";
 
 inline bool measures(const SceneParameters& scene, std::string_view quantity) {

@@ -48,7 +48,7 @@ std::string read_all(std::istream& stream, const std::string& name) {
     return text;
 }
 
-/// Reads one line character by character, so that the stream is exactly behind it afterwards.
+/// Reads one line character by character, so that the stream is left directly behind the line.
 bool take_line(std::istream& stream, std::string& line) {
     line.clear();
     for (int c = stream.get(); c != std::istream::traits_type::eof(); c = stream.get()) {
@@ -68,8 +68,8 @@ bool skip_blank(std::istream& stream, std::int64_t& n_lines) {
     return false;
 }
 
-/// Whether the next line begins with a number. Newer texts of the course have no word for the
-/// output between the steps and the discs.
+/// Whether the next line begins with a number. Newer texts in the legacy format have no `print` or
+/// `perf` between the number of steps and the discs.
 bool begins_a_disc(std::istream& stream, std::int64_t& n_lines) {
     if (!skip_blank(stream, n_lines)) return false;
     const int c = stream.peek();

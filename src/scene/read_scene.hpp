@@ -27,8 +27,8 @@ struct SceneText {
     std::string text;
     std::int64_t lines_before_discs = 0; ///< legacy text: number of lines taken from the stream
     bool discs_follow = false;           ///< legacy text: the stream continues with lines of discs
-    /// The columns of discs, set when the scene is known to have any (`discs.columns`); sizes are
-    /// not checked before
+    /// The columns of discs, set when the scene is known to have any (`discs.columns`). Before
+    /// that, sizes are not checked
     std::optional<DiscColumns> columns{};
 };
 
@@ -46,8 +46,8 @@ SceneText read_scene_text(std::istream& stream, const std::string& name);
 SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides = {});
 
 /// Reads a scene, but appends the problems to `problems`, in the order of lines. If there are
-/// problems, the scene can only be used for `disc_line_problems`, because wrong values are 0 or
-/// their default.
+/// any, the scene serves only for `disc_line_problems`, because wrong values are 0 or the
+/// default.
 SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides,
                            std::vector<Problem>& problems);
 

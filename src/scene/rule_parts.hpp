@@ -17,12 +17,12 @@ inline bool has_open(const SceneParameters& s) { return s.effects.have_open_boun
 inline bool has_moving(const SceneParameters& s) {
     return has_boundary(s.effects, BoundaryKind::moving);
 }
-/// Also true if discs will freeze and become obstacles.
+/// Whether there are fixed bodies, or discs that will freeze and become obstacles.
 inline bool has_fixed_bodies(const SceneParameters& s) {
     return s.effects.fixed_bodies.are_any() || s.freezes();
 }
 inline bool has_effects(const SceneParameters& s) { return s.effects.are_any() || s.freezes(); }
-/// Text that follows "has no meaning".
+/// The missing condition, after the words "has no meaning".
 inline constexpr const char* no_obstacles =
     "without 'effects.obstacles.discs', 'segments', 'arcs', 'polygons' or a 'box.shape'";
 inline bool has_growing_discs(const SceneParameters& s) { return s.effects.rate_of_radii() != 0; }

@@ -51,7 +51,7 @@ std::vector<Rule> rules_of_starts() {
     };
 }
 
-/// Frames cannot contain numbers that discs do not have.
+/// Makes the rule that frames cannot contain a column that discs do not have.
 template <std::size_t k> Rule rule_of_column() {
     return rule(side_column_table[k].shown, "discs without it", side_column_table[k].needs,
                 {"output.trajectory.fields"}, [](const SceneParameters& s) {

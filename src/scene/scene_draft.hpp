@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene that is being read: the part that is known, the settings, and the problems so far. All
-// problems are reported at once, so checks continue after one.
+// A scene that is being read: its known part, the settings, and the problems so far. All problems
+// are reported together, so checks continue after the first problem.
 #pragma once
 
 #include <initializer_list>
@@ -25,7 +25,7 @@ struct SceneDraft {
     Problems& problems;
     const DiscColumns* columns = nullptr; ///< columns in the file of discs
 
-    /// Adds a problem at the first of these keys that the input has, or for the scene as a whole.
+    /// Adds a problem at the first of these keys that the input has, or at the whole scene.
     template <class Keys> void refuse_first(const Keys& keys, std::string text) const {
         Place place{scene.name, 0};
         for (const std::string_view key : keys) {
@@ -38,13 +38,13 @@ struct SceneDraft {
     void refuse(std::initializer_list<std::string_view> keys, std::string text) const {
         refuse_first(keys, std::move(text));
     }
-    /// Whether the scene's time between syncs is valid. If the given one is wrong, that is already
-    /// a problem, and the scene has the default.
+    /// Whether the scene's time between syncs is valid. If the given time is wrong, this is
+    /// reported, and the scene has the default.
     bool knows_syncs() const {
         const Setting* every = settings.find("time.sync_every");
         return !every || !every->is_wrong;
     }
-    /// Calls what(row, number from 1, index) for the valid rows of a list.
+    /// Calls what(row, number, place) for the valid rows of a list; numbers begin at 1.
     template <class What> void for_each_row(std::string_view key, const What& what) const {
         const Setting* setting = settings.find(key);
         if (!setting || !std::holds_alternative<Values>(setting->value.data)) return;
@@ -56,7 +56,7 @@ struct SceneDraft {
         }
     }
     /// Adds "row 2 of 'key': ..." for the first rows whose fault(row) is not empty, and the number
-    /// of further ones.
+    /// of further such rows.
     template <class Fault> void refuse_rows(std::string_view key, const Fault& fault) const {
         constexpr std::size_t most_listed = 20;
         std::size_t n_wrong = 0;
@@ -75,8 +75,8 @@ inline double steps_between_syncs(const SceneParameters& scene) {
     return static_cast<double>(scene.sync_every) / static_cast<double>(scene.micro_steps);
 }
 
-/// Checks the number, sizes, positions and speeds of discs. Returns false if box or discs may be
-/// wrong; then both sizes are 0.
+/// Checks the number, sizes, positions and speeds of discs. Returns false if box or radius may be
+/// wrong; then both are 0.
 bool check_discs(const SceneDraft& draft);
 
 /// Reports conditions of `[time.stop]` on properties that the scene's discs do not have.
@@ -84,17 +84,17 @@ void check_stop(const SceneDraft& draft);
 /// Reports features of the scene that a GPU cannot run, if the scene requires one.
 void check_gpu(const SceneDraft& draft);
 
-/// Checks that `discs.columns` can be columns of lines of discs.
+/// Checks that lines of discs can have the columns of `discs.columns`.
 void check_columns(const SceneDraft& draft);
-/// Checks the lengths of the rows of `discs.list`. Rows of positions only need velocities that are
-/// drawn.
+/// Checks the lengths of the rows of `discs.list`. If rows contain only positions, velocities must
+/// be drawn.
 void check_rows_of_list(const SceneDraft& draft);
 
 /// Checks numbers of steps, rates and times against each other.
 void check_times(const SceneDraft& draft);
 
-/// Limits a contact time that the scene does not set to `longest` steps; reports a longer one that
-/// it does set, with the reason `why`.
+/// Reports a contact time of more than `longest` steps, with the reason `why`, if discs may come to
+/// rest and so need one.
 void limit_contact_time(const SceneDraft& draft, double longest, std::string_view why);
 
 } // namespace carrom

@@ -2,8 +2,8 @@
 // One checked description of a run. Every reader of inputs makes a `SceneParameters`, and nothing
 // reads the text of the input afterwards.
 //
-// Velocities and times are the scene's (per step). The engine divides velocities by `micro_steps`
-// when it takes the discs.
+// Velocities and times are in the scene's unit of time, the step. The engine divides velocities by
+// `micro_steps` when it takes the discs.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace carrom {
 enum class Method { time_stepped, event_driven };
 /// The precision of stored states and of computation.
 enum class Precision { double_, single };
-/// The formula for contacts: that of the predicate, or that of the course program.
+/// The formula for the times of contacts: numerically stable, or as in the course program.
 enum class Arithmetic { stable, naive };
 enum class Generator { random, lattice, triangular, compressed, legacy, file };
 enum class VelocityKind {
@@ -48,25 +48,25 @@ struct InputDisc {
     friend bool operator==(const InputDisc&, const InputDisc&) = default;
 };
 
-/// Consecutive ids, up to `end`, of discs that start with the same number; per step if it is a
-/// rate.
+/// Discs with consecutive ids, up to `end`, that start with the same number. A rate is per
+/// step.
 struct NumberRun {
     DiscId end = 0;
     double number = 0;
 
     friend bool operator==(const NumberRun&, const NumberRun&) = default;
 };
-/// First numbers in the order of ids. A column whose numbers all start at 0 is empty.
+/// The initial numbers of columns, by ids. A column is empty if all its numbers are 0.
 using FirstNumbers = BySideColumn<std::vector<NumberRun>>;
 
-/// The columns that a line of `discs_file` may have. The columns beside the states come last.
+/// The columns that a line of `discs_file` may have. Columns other than states come last.
 enum class DiscColumn : std::size_t { id, x, y, vx, vy, radius, mass, first_side };
 
 constexpr DiscColumn disc_column_of(SideColumn column) {
     return static_cast<DiscColumn>(static_cast<std::size_t>(DiscColumn::first_side) +
                                    static_cast<std::size_t>(column));
 }
-/// For a column that is not the radius or the mass.
+/// The inverse of disc_column_of; not for states, radius and mass.
 constexpr SideColumn side_column_of(DiscColumn column) {
     return static_cast<SideColumn>(static_cast<std::size_t>(column) -
                                    static_cast<std::size_t>(DiscColumn::first_side));
@@ -95,7 +95,7 @@ struct StartRegion {
 
     friend bool operator==(const StartRegion&, const StartRegion&) = default;
 };
-/// Consecutive ids, up to `end`, of discs of one region, or of discs without a region of their own.
+/// Discs with consecutive ids, up to `end`, that have the same region or no own region.
 struct RegionRun {
     DiscId end = 0;
     std::optional<StartRegion> region;
@@ -114,7 +114,7 @@ struct DiscGroup {
 
     friend bool operator==(const DiscGroup&, const DiscGroup&) = default;
 };
-/// A disc of the initial state that became a fixed body, with its former id.
+/// A disc of the initial state that became a fixed body, with the id that it had as a disc.
 struct FrozenDisc {
     double id = 0, x = 0, y = 0, radius = 0;
 
@@ -129,7 +129,7 @@ struct CheckpointOutput {
     std::string folder; ///< relative to the run's folder
     std::optional<std::int64_t> every_steps;
     std::optional<double> every_minutes; ///< wall time in minutes
-    std::int64_t keep = 2;               ///< older ones are removed
+    std::int64_t keep = 2;               ///< number kept; older ones are removed
     bool at_end = true;
     Transfers transfers = Transfers::independent;
 };
@@ -140,7 +140,7 @@ struct TrajectoryOutput {
     std::int64_t every_steps = 1;
     std::int64_t frames_per_decade = 0; ///< 0: frames at regular steps
     bool has_position = true, has_velocity = true, has_collisions = false;
-    bool has_image = false;      ///< for a periodic box; true if the scene lists no fields
+    bool has_image = false;      ///< image counts; default: true in periodic boxes
     ComputedFieldSet computed{}; ///< none, if the scene lists no fields
     SideColumnSet columns;       ///< all columns of the discs, if the scene lists no fields
     bool is_single = true;       ///< numbers of 4 bytes instead of 8
@@ -151,8 +151,8 @@ struct CollisionOutput {
     std::string file;
 };
 
-/// `[output.measurements]`: what is sampled during the run, and where the tables go.
-/// Quantities and their settings have the names of their declarations (scene/quantity.hpp).
+/// `[output.measurements]`: the quantities that are sampled during the run, and the folder of
+/// tables. Quantities and their settings have the names of their declarations (scene/quantity.hpp).
 struct MeasurementOutput {
     struct Number {
         double value = 0;
@@ -178,7 +178,7 @@ struct MeasurementOutput {
 
 /// `[time.stop]`: ends a run before its last step, at the end of a step with a sync.
 struct StopConditions {
-    std::optional<std::int64_t> collisions, departed; ///< counts since the scene's start
+    std::optional<std::int64_t> collisions, departed; ///< counts since step 0
     std::optional<double> temperature_below, temperature_above;
     std::optional<double> energy_below, energy_above;
     std::optional<double> pressure_below, pressure_above;
@@ -198,14 +198,14 @@ struct SceneParameters {
     std::vector<std::string> overrides; ///< settings `key=value` on top of the text
 
     Box box;                 ///< lengths of the edges; 0 if they are not known
-    Origin origin;           ///< origin of printed and given places; the run computes without it
+    Origin origin;           ///< users' (0, 0); computations do not use it
     double radius = 0;       ///< radius of the largest disc
     bool are_points = false; ///< the scene has the radius 0; `radius` is then point_radius(box)
-    std::optional<SizeDistribution> sizes; ///< distribution of the radii, which have become species
+    std::optional<SizeDistribution> sizes; ///< distribution of radii; species are made from it
     std::uint64_t n_discs = 0;
 
     Generator generator = Generator::random;
-    /// For Generator::file, relative to the scene; empty if lines follow the header
+    /// The file for Generator::file, relative to the scene; empty if lines follow the header
     std::string discs_file;
     std::string discs_from; ///< an HDF5 file with the initial discs, relative to the scene
     std::optional<std::int64_t> discs_from_step; ///< step of the frame; unset: the last frame
@@ -223,13 +223,13 @@ struct SceneParameters {
     std::optional<StartRegion> region; ///< region for discs without a region of their own
     /// Regions of species or groups, by ids; empty if there are none
     std::vector<RegionRun> regions;
-    bool has_shares = false; ///< shares are given in `discs.species`
+    bool has_shares = false; ///< whether `discs.species` contains shares
     /// Groups by species, in the order of ids; they cover all discs, or the list is empty
     std::vector<DiscGroup> groups;
     /// Discs that are generated in these regions become fixed bodies
     std::vector<StartRegion> freeze;
-    /// By ids; when they are known, they are fixed bodies of the scene, and its numbers are without
-    /// them
+    /// Frozen discs by ids. When they are known, they are fixed bodies of the scene, and its counts
+    /// of discs do not include them
     std::vector<FrozenDisc> frozen;
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
     std::vector<DiscColumn> disc_columns; ///< `discs.columns`; see columns_of_lines
@@ -241,7 +241,7 @@ struct SceneParameters {
     std::int64_t sync_every = 64;
     Precision precision = Precision::double_;
     Arithmetic arithmetic = Arithmetic::stable;
-    bool contraction = false; ///< fused products and sums in the naive formula
+    bool contraction = false; ///< the naive formula uses fused multiply-add
     std::optional<double> accuracy;
     bool gpu = false; ///< a GPU runs the steps
     StopConditions stop;
@@ -254,7 +254,7 @@ struct SceneParameters {
     /// `steps`. Sampling must be frequent enough up to this step.
     std::int64_t least_last_step() const { return stop.are_any() ? 0 : steps; }
 
-    Effects effects; ///< times in steps
+    Effects effects; ///< effects with the step as the unit of time
 
     TextOutput text_output = TextOutput::none;
     std::string folder; ///< folder of all outputs, relative to the working folder; empty: none
@@ -271,9 +271,9 @@ struct SceneParameters {
 
     /// The area in which discs move; fixed bodies in it are not subtracted.
     double area() const;
-    /// The share of that area that the discs cover at the start.
+    /// The share of `area()` that the discs cover at the start.
     double packing() const;
-    /// The packing at the end of the last step, for growing discs.
+    /// The packing at the end of the last step, which differs for growing discs.
     double last_packing() const {
         const double size = effects.size_at(static_cast<double>(steps));
         return packing() * (size * size);
@@ -282,20 +282,20 @@ struct SceneParameters {
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }
 };
 
-/// The radius of equal discs that cover this share of the scene's area.
+/// The radius of equal discs whose packing in the scene is `packing`.
 double radius_of_packing(const SceneParameters& scene, double packing);
 
 /// The radius that stands for points, a billionth of the box. It is larger than any rounding, so a
 /// position is always on one side of a wall.
 inline double point_radius(const Box& box) { return 0x1p-30 * box.longest(); }
 
-/// Whether discs may start with numbers other than 0 in a column.
+/// Whether discs may start with nonzero numbers in a column.
 bool has_first_numbers(const SceneParameters& scene, SideColumn column);
 /// A disc's initial number in a column. Directions that the scene does not give are drawn from the
 /// seed of the activity, so that any rank can compute them for any disc.
 double first_number(const SceneParameters& scene, SideColumn column, DiscId id);
 
-/// The columns beside the states that the scene's discs have: those that the dynamics needs, and
+/// The columns other than states that the scene's discs have: those that the dynamics needs, and
 /// those for which the scene gives numbers.
 SideColumnSet side_columns_of(const SceneParameters& scene);
 

@@ -28,8 +28,8 @@ using Numbers = std::vector<double>;
 using Values = std::vector<Value>;
 using NamedValues = std::vector<std::pair<std::string, Value>>;
 
-/// A value of TOML. Rows of numbers become Numbers when they are checked. An invalid row becomes
-/// `monostate`, so that the rows after it keep their places.
+/// A value of TOML. Checks turn rows of numbers into Numbers, and an invalid row into `monostate`,
+/// so that the rows after it keep their positions.
 struct Value {
     std::variant<std::monostate, bool, std::int64_t, double, std::string, Numbers, Values,
                  NamedValues>
@@ -55,7 +55,7 @@ public:
                                         [key](const Setting& one) { return one.key == key; });
         return found == all_.end() ? nullptr : &*found;
     }
-    /// The setting, so that a check can complete its value, such as counts that follow from other
+    /// The setting, for checks that complete its value, such as counts that follow from other
     /// keys.
     Setting* find_to_complete(std::string_view key) {
         const auto found = std::ranges::find(all_, key, &Setting::key);

@@ -6,8 +6,8 @@
 
 namespace carrom {
 
-/// Reports other keys that give radii beside a distribution. The number of discs need not be known
-/// yet.
+/// Reports other keys that define radii in addition to a distribution. The number of discs may be
+/// unknown.
 void check_rivals_of_sizes(const SceneDraft& draft);
 
 /// Whether radii can follow the distribution: its limits must be in order and not too small.

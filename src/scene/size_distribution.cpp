@@ -12,17 +12,17 @@ namespace carrom {
 namespace {
 
 constexpr double widest_deviations = 3; ///< default limits, in standard deviations from the middle
-/// If limits are further away than this, the cells of the range would be too coarse for the
-/// density. So the range is cut where the density vanishes.
+/// A range wider than `widest_range` deviations would make its cells too coarse for the density. So
+/// it is cut at `end_of_density`, where the density vanishes.
 constexpr double widest_range = 64, end_of_density = 12;
-/// Below this the square of the polydispersity loses too many digits when 1 is added.
+/// Below this polydispersity s, 1 + s^2 loses too many digits of s^2.
 constexpr double narrow = 0x1p-13;
 
 /// e to the power of x.
 double exponential(double x) { return x < 0 ? drag_slowing(1, -x) : 1 / drag_slowing(1, x); }
 
-/// The natural logarithm of `x`, by Newton's rule; it ends when nothing changes, or only the last
-/// bit alternates.
+/// The natural logarithm of `x`, by Newton's method; it ends when the change is only
+/// rounding.
 double logarithm(double x) {
     double y = 0;
     for (int step = 0; step < 200; ++step) {
@@ -33,7 +33,7 @@ double logarithm(double x) {
     return y;
 }
 
-/// The variable in which the density is a simple function: the radius, or its logarithm.
+/// The variable x in which the density is a simple function: the radius, or its logarithm.
 struct Measure {
     double middle = 1, deviation = 0;
     bool is_logarithm = false, is_flat = false;
@@ -51,8 +51,8 @@ struct Measure {
 Measure measure_of(const SizeDistribution& sizes) {
     const double s = sizes.polydispersity;
     if (sizes.kind != SizeKind::lognormal) return {1, s, false, sizes.kind == SizeKind::uniform};
-    // The variance is that of the logarithm; with this middle the mean of the radii is 1.
-    if (s < narrow) { // uses the series of log(1 + s^2)
+    // The variance of the logarithm; the middle is chosen so that radii have the mean 1.
+    if (s < narrow) { // avoids the loss of digits by the series of log(1 + s^2)
         const double per_square = 1 - s * s * (0.5 - s * s / 3);
         return {-s * s * per_square / 2, s * std::sqrt(per_square), true, false};
     }
@@ -60,7 +60,7 @@ Measure measure_of(const SizeDistribution& sizes) {
     return {-variance / 2, std::sqrt(variance), true, false};
 }
 
-/// Distance from the middle to the default limit.
+/// Distance from the middle to the limits that a scene has by default.
 double reach_of(const SizeDistribution& sizes) {
     return sizes.kind == SizeKind::uniform ? std::sqrt(3.0) : widest_deviations;
 }
@@ -72,7 +72,7 @@ SizeLimits size_limits(const SizeDistribution& sizes) {
     const double reach = reach_of(sizes);
     const double low = measure.radius_of(measure.middle - reach * measure.deviation),
                  high = measure.radius_of(measure.middle + reach * measure.deviation);
-    // A uniform distribution has limits of its own; wider ones would change its deviation.
+    // A uniform distribution ends at its own limits; wider limits would change its deviation.
     if (sizes.kind == SizeKind::uniform)
         return {std::max(low, sizes.smallest.value_or(low)),
                 std::min(high, sizes.largest.value_or(high))};
@@ -89,7 +89,7 @@ double share_within_limits(const SizeDistribution& sizes) {
     };
     const double low = score(sizes.smallest, -reach), high = score(sizes.largest, reach);
     if (measure.is_flat) return (std::min(high, reach) - std::max(low, -reach)) / (2 * reach);
-    // Subtracts tails on the side where both are small, because small numbers have more digits.
+    // The difference of the tails on the side where both are small, because it keeps more digits.
     const auto tail = [](double z) { return std::erfc(z / std::numbers::sqrt2) / 2; };
     return low > 0 ? tail(low) - tail(high) : tail(-high) - tail(-low);
 }

@@ -8,8 +8,8 @@
 // rank (species.hpp).
 //
 // Quantiles are computed from a sum of the density, with + - * / and sqrt only, so they have the
-// same bits on every machine. A library's error function would give quantiles, and so radii, that
-// differ between machines.
+// same bits on every machine. The error functions of libraries differ between machines, and so
+// would radii.
 #pragma once
 
 #include <cstdint>
@@ -43,8 +43,8 @@ struct SizeLimits {
 };
 SizeLimits size_limits(const SizeDistribution& sizes);
 
-/// The probability of a radius between the limits, which are positive and in order. It uses the C
-/// library's error function, so it serves for checks only.
+/// The probability of a radius between the limits, which must be positive and in order. Only for
+/// checks, because it uses the error function of the C library.
 double share_within_limits(const SizeDistribution& sizes);
 
 /// Limits must contain at least this share of a distribution, so that the density between them does
@@ -55,8 +55,8 @@ constexpr double smallest_share = 1e-12;
 /// limits must be positive, in order, and contain `smallest_share`. Cost: some 1e6 operations.
 std::vector<double> radii_of_parts(const SizeDistribution& sizes, std::size_t n);
 
-/// Species for this number of discs, from the smallest to the largest. If `sizes` has no mean, it
-/// is chosen so that the discs cover `covered_area`.
+/// Species for this number of discs, from the smallest to the largest radius. If `sizes` has no
+/// mean, the mean is chosen so that the discs cover `covered_area`.
 std::vector<Species> species_of_sizes(SizeDistribution& sizes, std::uint64_t n_discs,
                                       double covered_area);
 

@@ -13,7 +13,7 @@ namespace carrom {
 
 namespace {
 
-/// The keys that give the number of discs of a row, and their indices in the row.
+/// The keys that can give a row's number of discs, and their indices in the row.
 constexpr std::array<std::pair<std::string_view, std::size_t>, 4> sources = {
     {{"count", species_row::count},
      {"packing", species_row::packing},
@@ -21,7 +21,7 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 4> sources = {
      {"share_of_area", species_row::share_of_area}}};
 constexpr double largest_fault = 1e-9; ///< largest deviation of the sum of shares from 1
 
-/// Why the number of discs of a row cannot be computed, or empty.
+/// Why the number of discs of a row cannot be computed; empty if it can.
 std::string problem_of(const Numbers& row) {
     std::string first;
     for (const auto& [name, place] : sources) {
@@ -35,8 +35,8 @@ std::string problem_of(const Numbers& row) {
     return first.empty() ? "it needs count, packing, share or share_of_area" : "";
 }
 
-/// Splits n in proportion to weights with the sum 1, to the nearest whole numbers with the same
-/// sum.
+/// Splits n in proportion to weights whose sum is 1, into the nearest whole numbers whose sum is
+/// n.
 std::vector<double> split(double n, const std::vector<double>& weights) {
     std::vector<double> parts, rests;
     for (const double weight : weights) {
@@ -63,7 +63,7 @@ public:
             if (auto* numbers = std::get_if<Numbers>(&row.data)) rows_.push_back(numbers);
     }
 
-    /// Returns false if a count is missing that cannot be computed from the rows.
+    /// Computes the counts of all rows. Returns false if a count cannot be computed.
     bool fill() {
         if (setting_.is_wrong || !are_sources_right()) return false;
         if (std::ranges::all_of(rows_, [](const Numbers* row) { return is_given(*row, 0); }))
@@ -130,7 +130,7 @@ private:
         return true;
     }
 
-    /// The number of discs to which shares refer; 0 if it is unknown, which is a problem.
+    /// The number of discs to which shares refer. 0 if it is unknown, which is reported.
     double number_of_all(const std::vector<double>& weights) {
         const bool has_count = draft_.settings.has("discs.count");
         const Setting* packing = draft_.settings.find("discs.packing");
@@ -140,7 +140,7 @@ private:
                                has_count ? ", not both" : ""));
             return 0;
         }
-        // The scene's number of discs is 0 if the given count is invalid
+        // An invalid count gives 0 here, because the scene then has no number of discs
         if (has_count) return static_cast<double>(draft_.scene.n_discs);
         if (packing->is_wrong) return 0;
         double square = 0; // mean of r^2
@@ -163,7 +163,7 @@ private:
                                row[0], largest_count);
         });
         const bool are_right = draft_.problems.size() == n_problems;
-        for (Numbers* row : rows_) // marks the counts, so that no other check reports them again
+        for (Numbers* row : rows_) // removed if one is wrong, so that no other check reports it
             if (!are_right) (*row)[0] = not_given;
         return are_right;
     }

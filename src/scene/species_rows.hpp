@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// The indices of the numbers in a row. A number that the scene does not give is NaN, except a mass
-/// and the columns beside the states.
+/// The indices of the numbers in a row. A number that the scene leaves out is NaN. Mass and the
+/// columns other than states have defaults instead.
 namespace species_row {
 inline constexpr std::size_t count = 0, radius = 1, mass = 2;
 constexpr std::size_t of(SideColumn column) { return 3 + static_cast<std::size_t>(column); }
@@ -20,7 +20,7 @@ inline constexpr std::size_t region = 3 + n_given_columns; ///< index of the fir
 inline constexpr std::size_t packing = region + 4, share = packing + 1, share_of_area = share + 1;
 } // namespace species_row
 
-/// A number of a row of species or groups that the scene does not give.
+/// The value of a number that a row of species or groups leaves out.
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 inline bool is_given(const Numbers& row, std::size_t place) { return !std::isnan(row[place]); }
 

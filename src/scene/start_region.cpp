@@ -18,13 +18,13 @@ namespace carrom {
 
 namespace {
 
-/// The discs that begin in one region.
+/// The number and sizes of the discs that begin in one region.
 struct Crowd {
     std::uint64_t count = 0;
     double largest = 0, area = 0;
 };
 
-/// Adds discs from `first` to `end` - 1.
+/// Adds the discs with the ids `first` to `end` - 1.
 void add_discs(Crowd& crowd, const SceneParameters& scene, DiscId first, DiscId end) {
     const auto add = [&crowd](double radius, std::uint64_t n) {
         crowd.count += n;
@@ -40,7 +40,7 @@ void add_discs(Crowd& crowd, const SceneParameters& scene, DiscId first, DiscId 
     }
 }
 
-/// The regions in which discs begin. Species of one region share its room.
+/// The discs in each region where discs begin. Species with equal regions share their room.
 std::vector<std::pair<StartRegion, Crowd>> crowds_of(const SceneParameters& scene) {
     std::vector<RegionRun> runs = scene.regions;
     if (runs.empty()) runs.push_back({scene.n_discs, scene.region});
@@ -129,7 +129,7 @@ Key region_key() {
 
 void check_regions(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
-    // Because groups have checks of their own
+    // Groups are left out, because they have their own checks
     if (!has_regions(scene) || !scene.groups.empty()) return;
     if (!scene.regions.empty() && scene.generator != Generator::random)
         return draft.refuse({"discs.species"}, "a region of a species has no meaning without "

@@ -13,7 +13,7 @@ namespace carrom {
 
 namespace {
 
-/// Limits the parts of a key, for each of which the parser recurses; scenes need three.
+/// The most parts of a key, because the parser recurses for each part; scenes need three.
 constexpr int most_parts = 32;
 constexpr std::size_t most_unknown = 20; ///< so many unknown keys are listed; the rest are counted
 
@@ -122,7 +122,7 @@ private:
     std::size_t n_unknown_ = 0;
 };
 
-/// Values of `--set` have no lines.
+/// Removes line numbers, because values of `--set` have no lines.
 void forget_lines(Value& value) {
     value.line = 0;
     if (auto* values = std::get_if<Values>(&value.data))

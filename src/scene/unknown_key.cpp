@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// The index of the nearest name, if it is near enough to be the intended one.
+/// The index of the nearest name, or nothing if no name is near enough to be the intended one.
 std::optional<std::size_t> nearest_of(std::string_view name,
                                       std::span<const std::string_view> names) {
     name = name.substr(0, 200);
@@ -43,7 +43,7 @@ std::string_view table_of(std::string_view key) {
 
 std::string_view last_of(std::string_view key) { return key.substr(key.rfind('.') + 1); }
 
-/// Names of keys and tables: those in a known table, otherwise all.
+/// Names of the keys and tables in `table`; all names if the table is unknown.
 std::vector<std::string_view> names_in(std::string_view table, bool is_known) {
     std::vector<std::string_view> names;
     for (const Key& one : keys())
@@ -64,7 +64,7 @@ std::string what_there_is(std::string_view table) {
     return fmt::format("; [{}] has {}", table, list);
 }
 
-/// Keys that people try, and the advice for each.
+/// Keys that users of other programs may write, and the advice for each.
 constexpr std::pair<std::string_view, std::string_view> keys_tried[] = {
     {"output.checkpoint.folder", folder_text},
     {"output.trajectory.file", folder_text},

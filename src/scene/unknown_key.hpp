@@ -10,18 +10,18 @@
 
 namespace carrom {
 
-/// The new name of a renamed key (and of its `value`), or the nearest name by edit
-/// distance, or the existing names.
+/// The message for an unknown key: the new name of a renamed key (and of its `value`), or the
+/// nearest name by edit distance, or the existing names.
 std::string unknown_key_text(std::string_view key, const Value& value);
 
-/// The advice for a key that people try because other programs have it; else empty.
+/// The advice for a key that other programs have and Carrom lacks; otherwise empty.
 std::string instead_of(std::string_view key);
 
-/// The message for a table that the input gives as one value.
+/// The message for a table to which the input gives a single value.
 std::string table_text(std::string_view key, const Value& value);
 
-/// Text such as "; did you mean \"all\"?" with the nearest of a few names, in `quote`s. It is empty
-/// if no name is near enough, which means one wrong letter, or up to a third of the letters.
+/// Text such as "; did you mean "all"?" with the nearest name, in `quote`s. A name is near enough
+/// if at most one letter, or up to a third of the letters, is wrong. Otherwise the text is empty.
 std::string guess(std::string_view name, std::span<const std::string_view> names, char quote);
 
 /// The number of insertions, deletions and replacements that turn `a` into `b`.

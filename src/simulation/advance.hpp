@@ -16,11 +16,11 @@ public:
 
     /// The first step after `step` that the run must not pass without calling `act`.
     virtual std::int64_t next_due(std::int64_t step) const = 0;
-    /// Called after each stretch of steps, whether it is due or not. Returns false if the run must
-    /// end here. **Collective.**
+    /// Called after each stretch of steps, even if the action is not due. Returns false if the run
+    /// must end here. **Collective.**
     virtual bool act() = 0;
-    /// Makes everything so far permanent. Called before a checkpoint is written, because a restart
-    /// from it cannot repeat earlier work. **Collective.**
+    /// Makes all output so far permanent. Called before a checkpoint is written, because a restart
+    /// from the checkpoint cannot repeat earlier output. **Collective.**
     virtual void commit() {}
 };
 
@@ -30,7 +30,7 @@ struct StretchSeconds {
 };
 
 /// Advances to the end of `last_step`, and calls the actions in their order after each stretch of
-/// steps. Returns false if an action ended the run before. **Collective.**
+/// steps. Returns false if an action ended the run early. **Collective.**
 bool advance_to(DiscSystem& system, std::int64_t last_step,
                 std::span<StepAction* const> actions = {}, StretchSeconds* seconds = nullptr);
 

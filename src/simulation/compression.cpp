@@ -20,10 +20,10 @@ namespace carrom {
 namespace {
 
 constexpr double first_packing = 0.3; ///< packing of the random gas
-/// Shares by which radii grow in a stretch: the first one, the largest one, and relative to the
+/// Relative growth of radii in a stretch: in the first one, at most, and divided by the relative
 /// room that is left.
 constexpr double first_growth = 0.01, most_growth = 0.05, share_of_room = 0.1;
-/// If less room than this is left, discs have jammed: the pressure is N kT / A divided by the room.
+/// Discs have jammed if less room than this is left: their pressure is N kT / A over the room.
 constexpr double jammed_room = 1e-6;
 /// Radii grow by this share more than required, so that rounding leaves no overlap.
 constexpr double margin = 0x1p-30;
@@ -35,7 +35,7 @@ public:
         : scene_(scene), communicator_(communicator), tuning_(tuning),
           size_(std::min(1.0, std::sqrt(first_packing / scene.packing()))) {}
 
-    /// Returns positions; velocities have no meaning.
+    /// Returns discs with valid positions; their velocities have no meaning.
     std::vector<InputDisc> run() {
         discs_ = insert_at_random(stretch(), communicator_, tuning_.threads);
         if (size_ == 1) return std::move(discs_);
@@ -57,8 +57,8 @@ public:
     }
 
 private:
-    /// The scene of one stretch, which is a step of one micro-step. Masses are equal, and walls
-    /// plain.
+    /// The scene of one stretch, which is one step of one micro-step. Masses are equal, and walls
+    /// are elastic.
     SceneParameters stretch() const {
         SceneParameters scene;
         scene.name = scene_.name;
@@ -76,9 +76,9 @@ private:
         return scene;
     }
 
-    /// Runs one stretch. Discs begin and end with a root mean square speed of 1. The rate of growth
-    /// determines how far they fly in the step. Returns by what share radii can still grow before
-    /// discs jam, which follows from the heating: if gaps shrink from a to b, speeds grow by a / b.
+    /// Runs one stretch. The root mean square speed is 1 before and after it. The rate of growth
+    /// determines how far discs fly in the step. Returns the share by which radii can still grow
+    /// before discs jam. It follows from the heating: if gaps fall from a to b, speeds grow by a/b.
     double run_stretch() {
         const double speed = 2 * scene_.radius * size_ * growth_ / scene_.compression_rate;
         for (InputDisc& disc : discs_) disc.vx *= speed, disc.vy *= speed;

@@ -22,14 +22,14 @@ CellSizes cell_sizes(const DiscSystem& system) {
     return sizes;
 }
 
-/// The orders of all discs of the view that are at most `reach_beyond` from the own ones; or those
-/// of own discs whose id is a multiple of `ids_apart`, if that is not 0. The view is valid until
-/// images are removed. **Collective.**
+/// Finds the orders of all discs of the view that are at most `reach_beyond` from own discs. If
+/// `ids_apart` is not 0, finds only those of own discs whose id is a multiple of it. The view is
+/// valid until images are removed. **Collective.**
 LocalView find_orders(DiscSystem& system, double reach_beyond, std::uint64_t ids_apart,
                       std::vector<BondOrder>& orders) {
     const Extent box = system.box();
     const CellSizes sizes = cell_sizes(system);
-    // Voronoi cells of a fluid are whole within three times the mean distance of neighbours.
+    // In a fluid, discs within three mean distances suffice to complete the Voronoi cells.
     for (double reach = 3 * std::sqrt(area_of(box) / static_cast<double>(system.n_discs()));;
          reach *= 2) {
         const LocalView now = system.engine().local_view(reach_beyond + reach);

@@ -14,7 +14,7 @@
 
 namespace carrom {
 
-/// psi6 of all discs together, and correlations of pairs up to that distance, over all ranks.
+/// psi6 of all discs together, and correlations of pairs up to `largest_distance`, over all ranks.
 /// **Collective.**
 HexaticSums hexatic_order(DiscSystem& system, double largest_distance, std::size_t n_bins);
 /// psi6 of at most `most_discs` discs, evenly spread over the ids, without pairs. **Collective.**
@@ -22,8 +22,8 @@ HexaticSums sampled_order(DiscSystem& system, std::uint64_t most_discs);
 /// psi6 of each own disc, in the order of `DiscSystem::discs` after the call, which moves the discs
 /// in memory. **Collective.**
 std::vector<BondOrder> bond_orders(DiscSystem& system);
-/// The numbers of computed_fields.hpp of each own disc, 0 for departed discs. Their order is that
-/// of `bond_orders`, which also moves the discs. **Collective.**
+/// The numbers of computed_fields.hpp for each own disc, 0 for departed discs. They have the order
+/// of `bond_orders`; this call moves the discs, too. **Collective.**
 std::vector<ComputedNumbers> computed_numbers(DiscSystem& system);
 
 } // namespace carrom

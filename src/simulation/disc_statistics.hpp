@@ -15,15 +15,15 @@ namespace carrom {
 
 /// The sums from which averages follow, without the integrals of stress and energy. **Collective.**
 MotionSample motion_sample(const DiscSystem& system);
-/// Adds the integrals of stress and energy; `mine` are this rank's sums over the time of interest.
+/// Adds the integrals of stress and energy; `mine` are the sums of this rank over the interval.
 /// **Collective.**
 void integrate(const DiscSystem& system, const StressSums& mine, MotionSample& sample);
-/// Adds only flights since the last sync, which the sums still lack.
+/// Adds only the flights since the last sync, which the sums lack.
 void integrate_flights(const DiscSystem& system, MotionSample& sample);
 
-/// Adds to counts[k] this rank's pairs of discs at distances from k to k + 1 times `bin_width`,
-/// now; over all ranks each pair is counted once. All bins together must not exceed half the box.
-/// `species_ends`: the ids before which species end; the last one is the number of discs. The
+/// Adds to counts[k] this rank's pairs of discs whose present distance is k to k + 1 times
+/// `bin_width`; over all ranks each pair is counted once. All bins must lie within half the box.
+/// `species_ends`: the end of each species' range of ids; the last one is the number of discs. The
 /// counts of pairs of species (0, 0), (0, 1), (1, 1), (0, 2) and so on follow each other.
 /// **Collective.**
 void count_pair_distances(DiscSystem& system, double bin_width,

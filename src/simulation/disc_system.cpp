@@ -19,7 +19,7 @@ namespace carrom {
 
 namespace {
 
-/// The largest number of discs in a list that is returned to the system as a whole.
+/// Largest number of discs in a part of a list, because a part's memory is freed as a whole.
 constexpr std::size_t discs_in_part = 1 << 16;
 /// Memory for halo discs, per square root of the number of own discs: 32 layers of discs at each of
 /// four sides. Without it all discs would be copied when the halo grows.
@@ -39,7 +39,7 @@ std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
     return parts;
 }
 
-/// Frees inputs while it makes states. Both together would be the peak of the run's memory.
+/// Frees inputs while making states, because both together would be the peak of the run's memory.
 StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     const double rate_unit = scene.velocities == VelocityKind::reversed ? -k : k;
@@ -77,7 +77,7 @@ std::unique_ptr<Engine> engine_for(const SceneParameters& scene, StoredState sta
     return make_time_stepped_engine(scene, std::move(state), communicator, tuning);
 }
 
-/// A typical speed of discs per micro-step, now or later; the same on all ranks.
+/// A typical speed of discs per micro-step during the whole run; the same on all ranks.
 double usual_speed(const SceneParameters& scene, std::span<const DiscState> own,
                    const Communicator& ranks) {
     const Effects& effects = scene.effects;
@@ -97,7 +97,7 @@ double heaviest_of(const SceneParameters& scene) {
     return heaviest;
 }
 
-/// Whether nothing can change the kinetic energy. Otherwise averages need more samples, and each
+/// Whether the kinetic energy is conserved. Otherwise averages need more samples, and each sample
 /// takes two passes over the discs.
 bool keep_energy_of_motion(Effects effects) {
     effects.species.clear();
@@ -142,8 +142,8 @@ DiscSystem::DiscSystem(const SceneParameters& scene, StoredState state,
       engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averaged_system_(
           std::make_unique<AveragedSystem>(system_to_average(scene, engine_->n_discs()))) {
-    // Terms are some 2^45 units, and sums are up to 2^80 units. The largest terms are those of
-    // whole flights. Larger terms are rare, and are added in a slower way.
+    // Typical terms are 2^45 units, and sums may reach 2^80 units. The largest terms are those of
+    // whole flights. Rare larger terms are added in a slower way.
     const double speed = usual_speed(scene, engine_->own(), communicator),
                  flight = speed * static_cast<double>(longest_flight);
     begin_stress_sums(heaviest_ * std::max(scene.radius, flight) * speed * 0x1p80);

@@ -37,8 +37,8 @@ public:
                const Tuning& tuning);
     ~DiscSystem();
 
-    /// Runs to `last_step`, or to an earlier step at which reading the state is fast, and at least
-    /// one step. Steps are the scene's. **Collective.**
+    /// Runs at least one step, up to `last_step` or to an earlier step at which reading the state
+    /// is fast. Steps are those of the scene. **Collective.**
     void advance_towards(std::int64_t last_step);
 
     std::int64_t step() const;
@@ -59,11 +59,11 @@ public:
     double heaviest() const { return heaviest_; } ///< the largest mass of a disc
     /// The present time in micro-steps since the last sync, for DiscState::x_at.
     double clock() const;
-    /// The frame of the coordinates of `discs()` at `clock()`. It is the box's own
+    /// The frame of the coordinates of `discs()` at `clock()`. It is the frame of the box
     /// unless discs fall.
     Frame frame() const;
-    /// The own discs as the box sees them at `clock()`. This is `discs()` itself unless discs
-    /// fall; otherwise it is valid until the next call.
+    /// The own discs at `clock()` in the coordinates of the box. This is `discs()` itself unless
+    /// discs fall; otherwise it is valid until the next call.
     std::span<const DiscState> shown() const;
     /// Like `shown()`, but only velocities are valid. The mean flow between sheared sides is
     /// subtracted, because it is not part of the temperature.
@@ -81,17 +81,17 @@ public:
     Engine& engine() { return *engine_; }
     const Engine& engine() const { return *engine_; }
 
-    /// From now on every collision is appended to `log` of one rank, in no particular order; null
-    /// ends that.
+    /// From now on every collision is appended to the `log` of one rank, in no particular order.
+    /// A null pointer ends the logging.
     void log_to(std::vector<Collision>* log);
 
     /// This rank's sums of stress since the simulation was made, in the unit of `stress_bound()`.
-    /// They contain flights up to the last sync, and all collisions.
+    /// They contain all collisions, and flights up to the last sync.
     const StressSums& stress_sums() const;
     double stress_bound() const { return stress_bound_; }
     const AveragedSystem& averaged_system() const { return *averaged_system_; }
-    /// Starts the sums anew in another unit, as a checkpoint's measurements need it. Call it before
-    /// any step.
+    /// Restarts the sums in another unit, which the measurements of a checkpoint need. Call it
+    /// before any step.
     void begin_stress_sums(double bound);
 
     /// From now on the invariants of check_failure.hpp are checked after every step:
@@ -102,7 +102,7 @@ public:
 
     /// **Collective.**
     Totals totals() const;
-    /// Only number, energies and momentum, which takes two passes over the discs. **Collective.**
+    /// Only number, energies and momentum. Takes two passes over the discs. **Collective.**
     Totals energies() const;
 
 private:
@@ -124,7 +124,7 @@ private:
     std::unique_ptr<StateCheck> check_;
     mutable DiscStates shown_;              ///< the result of `shown()` if discs fall
     mutable DiscStates stored_;             ///< the result of `discs()` if discs have left the box
-    mutable SideColumns stored_columns_;    ///< the same for their side columns
+    mutable SideColumns stored_columns_;    ///< side columns of `stored_`
     std::vector<Collision>* log_ = nullptr; ///< the user's log; the check has a log of its own
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the discs of a scene's start, for any generator; other functions handle only some of the
+// Makes the initial discs of a scene, for any generator. Other functions handle only some of the
 // generators.
 //
-// Groups are placed one after the other. Lattices and compressed discs fill their regions, each
-// like a box of its own, and random discs are then placed in the gaps. Velocities are given last,
-// when discs that the scene freezes have become fixed bodies.
+// Groups are placed one after the other. Lattices and compressed discs fill their regions as if
+// each region were a box; then random discs are placed in the gaps. Velocities are drawn last,
+// after the discs that the scene freezes have become fixed bodies.
 #pragma once
 
 #include <istream>

@@ -28,7 +28,7 @@ const char* known_hash(Method method) {
                                           : "27f1b7fd3822c8519554c9040e1df5c3";
 }
 
-/// Discs on a square lattice at a packing fraction of 0.4, with velocities without a pattern.
+/// Discs on a square lattice at a packing fraction of 0.4, with irregular velocities.
 std::string hash_of(Method method) {
     SceneParameters scene;
     scene.box = {lattice_side, lattice_side};
@@ -51,7 +51,7 @@ std::string hash_of(Method method) {
     return to_string(system.totals().hash);
 }
 
-/// If a stop is requested meanwhile, no difference is reported. The run stops on all ranks
+/// Reports no difference if a stop is requested during the test; the run then stops on all ranks
 /// together.
 std::string difference_here() try {
     for (const Method method : {Method::time_stepped, Method::event_driven}) {

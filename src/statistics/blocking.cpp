@@ -14,10 +14,10 @@ namespace {
 constexpr double rounding_share = 1e-10;
 /// Halves of a run are compared if each has at least this many blocks.
 constexpr std::size_t fewest_blocks_of_half = 8;
-/// In a steady run the halves rarely differ by more than this: with independent blocks in one run
-/// of 2000.
+/// Deviation of the halves beyond which a run counts as changing. In steady runs with independent
+/// blocks it is exceeded in one run of 2000.
 constexpr double most_deviations = 4;
-/// Blocks that follow a trend are equivalent to one or two independent ones.
+/// A run with fewer independent blocks counts as following a trend.
 constexpr double fewest_independent = 3;
 
 /// 95 of 100 values of chi squared are below these, for 1, 2, 3 ... degrees of freedom.
@@ -101,14 +101,14 @@ double deviation_of_halves(std::span<const double> terms) {
 }
 
 /// Whether the means of eighths of a run rise or fall throughout: at most one of 28 pairs is out of
-/// order. By chance this happens in one of 2000 steady runs (Kendall, Biometrika 30, 81 (1938)). It
-/// detects a trend that is steep at first better than halves do.
+/// order. By chance this happens in one of 2000 steady runs (Kendall, Biometrika 30, 81 (1938)).
+/// For a trend that is steep at first this test is more sensitive than the comparison of halves.
 bool are_eighths_in_order(std::span<const double> terms) {
     constexpr std::size_t n_parts = 8;
     const std::size_t length = terms.size() / n_parts;
     if (length < 2) return false;
     int rising = 0, falling = 0,
-        pairs = 0; // equal means, as of rare events, count as neither rising nor falling
+        pairs = 0; // equal means, as for rare events, count as neither rising nor falling
     for (std::size_t last = 1; last < n_parts; ++last) {
         for (std::size_t first = 0; first < last; ++first) {
             ++pairs;

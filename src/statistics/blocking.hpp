@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Errors of averages over time for correlated samples.
 //
-// Samples are joined to blocks of equal length. When there are `most_blocks`, each two are joined
-// to one, so that memory does not grow with time. The error comes from blocks so long that their
-// means are independent (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)). Jonsson's test
-// (Phys. Rev. E 98, 043304 (2018)) finds that length automatically. The remaining correlation
-// between neighbouring blocks of that length is added.
+// Samples are joined to blocks of equal length. When there are `most_blocks`, neighbouring blocks
+// are joined in pairs, so that memory does not grow with time. The error comes from blocks so long
+// that their means are independent (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)).
+// Jonsson's test (Phys. Rev. E 98, 043304 (2018)) finds that length automatically. The remaining
+// correlation between neighbouring blocks of that length is added.
 //
-// In runs of at least 30 correlation times the claimed error is within 10 % of the scatter between
-// runs. With only eight correlation times it is a fifth too small.
+// In runs of at least 30 correlation times the estimated error is within 10 % of the scatter
+// between runs. In runs of only eight correlation times it is a fifth too small.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ constexpr std::size_t most_blocks = 128;
 struct BlockedMean {
     double error = std::numeric_limits<double>::quiet_NaN(); ///< one standard error, or NaN
                                                              ///< if there are too few blocks
-    /// The number of blocks, at least 1, after which one is independent of those before.
+    /// The distance, in blocks (at least 1), at which blocks are independent of each other.
     double blocks_per_independent = std::numeric_limits<double>::quiet_NaN();
     bool is_constant = false; ///< blocks agree to within rounding: a conserved quantity
     bool is_changing = false; ///< the run's halves differ by more than chance explains, or the
@@ -37,14 +37,14 @@ struct BlockedMean {
 
 /// `terms` are the means of blocks of one length, in the order of time.
 BlockedMean blocked_mean(std::span<const double> terms);
-/// Only the error of blocked_mean.
+/// Returns only the error of blocked_mean.
 double standard_error(std::span<const double> terms);
 
 /// A mean over samples with its error.
 struct SampledMean {
     double value = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();
-    /// In samples; the shortest that can be measured is half a block
+    /// Correlation time in samples; the shortest measurable one is half a block
     double correlation_time = std::numeric_limits<double>::quiet_NaN();
     double independent_samples = std::numeric_limits<double>::quiet_NaN();
     bool is_constant = false, is_changing = false;
@@ -68,8 +68,8 @@ public:
     /// The mean of the weighted sum of all values. Its error includes correlations between values.
     SampledMean weighted_mean(std::span<const double> weights) const;
 
-    /// All data as words, for a checkpoint. They do not depend on ranks or threads if the samples
-    /// do not.
+    /// All data as words, for a checkpoint. The words do not depend on ranks or threads if the
+    /// samples do not.
     std::vector<std::int64_t> words() const;
     /// Restores such words. Returns false, and changes nothing, if their number is wrong.
     bool set_words(std::span<const std::int64_t> words);

@@ -14,14 +14,14 @@ namespace carrom {
 
 namespace {
 
-/// A side that is shorter than this, relative to the distance of its two discs, counts as a corner
-/// where more than three cells meet, as in a square lattice.
+/// A side shorter than this, relative to the distance of its two discs, counts as a corner in which
+/// more than three cells meet, as in a square lattice.
 constexpr double shortest_side = 1e-9;
 
-/// The part of the reach within which most cells are complete.
+/// Share of the reach within which most cells are complete.
 constexpr double usual_part = 0.6;
 
-/// Another disc, relative to the disc whose cell is computed.
+/// Position and size of another disc, relative to the disc whose cell is computed.
 struct Seen {
     double dx = 0, dy = 0, squared = 0;
     DiscId id = 0;
@@ -185,7 +185,7 @@ HexaticSums::HexaticSums(std::uint64_t n_discs, std::size_t n_bins)
 
 namespace {
 
-/// Adds the pairs whose first disc is in that column of cells.
+/// Adds the pairs whose first disc is in the grid column `column`.
 void add_pairs_of(int column, const LocalView& view, std::span<const BondOrder> orders,
                   double bins_per_length, HexaticSums& sums) {
     const double n_bins = static_cast<double>(sums.pairs.size());

@@ -57,7 +57,7 @@ bool find_bond_orders(const LocalView& local_view, const Extent& box, const Cell
 
 /// Sums over discs at one time. They are exact, so ranks may add them in any order.
 struct HexaticSums {
-    static constexpr std::size_t most_neighbours = 12; ///< larger numbers count as this one
+    static constexpr std::size_t most_neighbours = 12; ///< larger numbers count as this number
 
     HexaticSums(std::uint64_t n_discs, std::size_t n_bins);
 

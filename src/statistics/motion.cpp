@@ -27,7 +27,7 @@ double speed_unit_of(std::span<const DiscState> own, int n_threads,
 
 } // namespace
 
-/// No term is above 1, so the sum of one term for each disc stays below 2^63.
+/// No term exceeds 1, so the sum of one term for each disc stays below 2^63.
 double terms_per_unit_of(std::uint64_t n_discs) {
     const double bits = std::ceil(std::log2(static_cast<double>(n_discs)));
     return std::ldexp(1.0, 62 - static_cast<int>(bits));
@@ -145,7 +145,7 @@ MotionIntegrals& MotionIntegrals::operator+=(const MotionIntegrals& other) {
 
 namespace {
 
-/// One velocity along an axis at both ends of an interval.
+/// The drift velocity along one axis at both ends of an interval.
 struct DriftOfInterval {
     Drift kind;
     double before, after;
@@ -161,9 +161,9 @@ DriftOfInterval drift_of(Drift kind, const AveragedSystem& system, const MotionS
     return {kind, velocity(before), velocity(after)};
 }
 
-/// The mean of a b over an interval. A drift that nothing stops changes linearly, if at all. For a
-/// drift that fluctuates, the mean square at samples equals the mean square over time, whereas a
-/// straight line between two samples would have up to a third less.
+/// The mean of a b over an interval. Where nothing stops a drift, it is constant or linear in time.
+/// For a fluctuating drift, the mean square at the two samples equals the mean square over time,
+/// whereas a straight line between the samples would give up to a third less.
 double mean_product(const DriftOfInterval& a, const DriftOfInterval& b) {
     const double at_ends = (a.before * b.before + a.after * b.after) / 2;
     if (a.kind == Drift::is_driven || b.kind == Drift::is_driven) return at_ends;
@@ -179,13 +179,13 @@ double per_freedom(Drift kind, double n_discs, const AveragedSystem& system) {
 
 } // namespace
 
-/// Two numbers are not exact: the distribution of the kinetic energy over the axes, and a drift
+/// Two numbers are approximate: the distribution of the kinetic energy over the axes, and a drift
 /// that changes between samples. Both have only the weight 1 / N, and only along an axis where the
-/// drift does not belong to the temperature.
+/// drift is not part of the temperature.
 namespace {
 
-/// The rest of a sum of squares along an axis after a subtraction; `all` is the sum along both
-/// axes. Discs with equal velocities leave a rounding error, which is set to 0.
+/// The difference of a sum of squares along an axis and `taken`; `all` is the sum along both
+/// axes. For discs with equal velocities only a rounding error is left, which is set to 0.
 double rest(double sum, double taken, double all) {
     const double left = sum - taken;
     return std::fabs(left) <= 0x1p-44 * all ? 0 : left;

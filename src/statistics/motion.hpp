@@ -2,8 +2,8 @@
 // Sums over all discs at one time, and the time integrals of stress and kinetic energy between
 // two such times. Temperature and pressure follow from them (docs/understanding/pressure.md).
 //
-// All have the same bits for any number of ranks and threads. A sample costs two
-// passes over the discs, some five nanoseconds a disc.
+// All sums have the same bits for any number of ranks and threads. A sample takes two passes over
+// the discs, which is about five nanoseconds a disc.
 #pragma once
 
 #include <cstdint>
@@ -74,14 +74,14 @@ struct AveragedSystem {
     bool has_flow = false; ///< the kinetic part is relative to a flow, and measured by samples
     /// Whether the kinetic energy is conserved; if not, samples are closer in time
     bool keeps_energy = true;
-    std::int64_t last_step = 0; ///< the last step that the run certainly reaches
+    std::int64_t last_step = 0; ///< the last step that the run is certain to reach
 };
 
 /// Integrals over the steps between two samples.
 struct MotionIntegrals {
     double steps = 0, area = 0, n_discs = 0;
-    /// The sum of m v v, without the drift along axes where it does not belong to the temperature.
-    /// The result is scaled by N / (N - 1) for the lost degree of freedom, so its mean is N kT
+    /// The sum of m v v, without the drift along axes where it is not part of the temperature.
+    /// There it is scaled by N / (N - 1) for the lost degree of freedom, so its mean is N kT
     /// along each axis. For a single disc it is NaN there.
     Tensor kinetic;
     Tensor stress; ///< stress times area

@@ -19,7 +19,7 @@ std::size_t species_of(DiscId id, std::span<const DiscId> species_ends) {
     return k;
 }
 
-/// Gauss's rule with five points: 0, and these on either side, with their weights.
+/// Gauss's quadrature with five points: middle weight, then the other points and their weights.
 constexpr double middle_weight = 128.0 / 225;
 constexpr std::array<std::array<double, 2>, 2> nodes = {
     {{0.5384693101056831, 0.47862867049936647}, {0.9061798459386640, 0.23692688505618908}}};
@@ -36,7 +36,7 @@ template <class What> double integral(double low, double high, int n_parts, cons
     return half * sum;
 }
 
-/// A stadium along x about the origin, with x up to `straight` from there on its straight sides.
+/// A stadium along x, centred at the origin; its straight sides extend from -straight to straight.
 struct Stadium {
     double straight, radius;
 
@@ -127,8 +127,8 @@ double share_of_ideal_pairs_in_circle(double radius, double distance) {
            (2 * (4 * s * s - 1) * std::acos(s) - 2 * s * (1 + 2 * s * s) * root) / std::numbers::pi;
 }
 
-/// The points of a pair with the difference h are in the part that the stadium has in common with
-/// its copy at h. The four quadrants of h are alike.
+/// For a pair with the difference h, the positions of one point form the common part of the stadium
+/// and its copy shifted by h. All four quadrants of h have the same contribution.
 double share_of_ideal_pairs_in_stadium(double length, double radius, double inner, double outer) {
     const Stadium stadium{length / 2, radius};
     const double pairs = integral(inner, outer, 2, [&](double distance) {

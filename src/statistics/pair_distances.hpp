@@ -18,9 +18,9 @@ constexpr std::size_t pair_kind(std::size_t a, std::size_t b) {
     return n_pair_kinds(a < b ? b : a) + (a < b ? a : b);
 }
 
-/// Adds to counts[k] this rank's pairs at a distance from k to k + 1 times `bin_width`. The view
+/// Adds to counts[k] this rank's pairs whose distance is k to k + 1 times `bin_width`. The view
 /// must include partners up to the largest distance. `species_ends` are the ids before which
-/// species end, the last one N. Each kind of pair has its own counts, one kind after the other.
+/// species end; the last one is N. The counts of each kind of pair follow each other.
 /// Counts are whole numbers, so threads and ranks may add in any order.
 void count_pair_distances(const LocalView& local_view, double bin_width,
                           std::span<const DiscId> species_ends, int n_threads,
@@ -30,16 +30,16 @@ void count_pair_distances(const LocalView& local_view, double bin_width,
 /// which must not exceed the shorter side. (From the distribution of each component's difference,
 /// as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
 double share_of_ideal_pairs(double a, double b, double distance);
-/// The share of such pairs in a box with periodic sides and walls along the side b, for nearest
+/// The share of ideal pairs in a box with periodic sides and walls along the side b, for nearest
 /// images, up to half a period.
 double share_of_ideal_pairs_around_x(double period, double b, double distance);
-/// The share of such pairs in a box without walls, for nearest images.
+/// The share of ideal pairs in a box without walls, for nearest images.
 double share_of_ideal_pairs_around(double area, double distance);
-/// The share of pairs in a circle, up to its diameter (Hammersley, Ann. Math. Stat. 21, 447
+/// The share of ideal pairs in a circle, up to its diameter (Hammersley, Ann. Math. Stat. 21, 447
 /// (1950)).
 double share_of_ideal_pairs_in_circle(double radius, double distance);
-/// The share of pairs that are from `inner` to `outer` apart in a stadium: two half circles, joined
-/// by straight sides of this length. For narrow bins; to a relative 1e-5.
+/// The share of ideal pairs whose distance is from `inner` to `outer` in a stadium: two half
+/// circles joined by straight sides of `length`. The relative error is 1e-5 for narrow bins.
 double share_of_ideal_pairs_in_stadium(double length, double radius, double inner, double outer);
 
 } // namespace carrom

@@ -19,8 +19,8 @@ struct WaveVector {
 /// The length of k.
 double wavenumber(const WaveVector& vector, double lx, double ly);
 
-/// The vectors up to a length, without one of each two opposite ones, in ascending order of n from
-/// 0, then of m.
+/// The wave vectors up to a length, in ascending order of n from 0, then of m. Of two opposite
+/// vectors only one is listed.
 std::vector<WaveVector> wave_vectors(double lx, double ly, double largest_wavenumber);
 
 /// The modes of a rank's discs, in fixed point.
@@ -41,7 +41,7 @@ private:
     }
 };
 
-/// `discs` are as the box sees them at `time`; `n_discs` counts all ranks. Price: some
+/// `discs` are in box coordinates at `time`; `n_discs` counts the discs of all ranks. Cost: some
 /// nanoseconds for each disc and vector.
 DensityModes density_modes(std::span<const DiscState> discs, double time, std::uint64_t n_discs,
                            double lx, double ly, std::span<const WaveVector> vectors,

@@ -88,7 +88,7 @@ protected:
         return traits_type::to_int_type(*gptr());
     }
 
-    /// For `tellg`, and to start reading again.
+    /// Supports `tellg` and a return to the beginning.
     pos_type seekoff(off_type offset, std::ios::seekdir from, std::ios::openmode) override {
         if (from == std::ios::beg && offset == 0) return begin_anew();
         if (from != std::ios::cur || offset != 0) return pos_type(off_type(-1));
@@ -128,8 +128,8 @@ private:
     std::uint64_t departed(std::ptrdiff_t k) const {
         return share_.departed[static_cast<std::size_t>(k)];
     }
-    /// The file has been checked before, so it was damaged since then. Other ranks do not have this
-    /// error, so it must not look like an error of all ranks.
+    /// The file was checked before, so it has been damaged since then. Other ranks do not have this
+    /// error, so it must not be thrown as an error of all ranks.
     void read(std::uint64_t begin, std::uint64_t end) {
         try {
             file_.read(frame_, begin, end, rows_);
@@ -145,16 +145,16 @@ private:
     FrameFile file_;
     std::size_t frame_;
     std::vector<std::size_t> places_; ///< columns of the file
-    double moved_x_, moved_y_;        ///< between the corners of the two boxes
+    double moved_x_, moved_y_;        ///< shift from the file's corner to the scene's corner
     ShareOfDiscs share_;
-    std::uint64_t first_row_, row_ = 0;     ///< index in the file
+    std::uint64_t first_row_, row_ = 0;     ///< rows of the file
     std::uint64_t next_ = 0, n_before_ = 0; ///< new id of the next disc; bytes of earlier blocks
     std::ptrdiff_t next_left_ = 0;          ///< index in `share_.departed`
     std::string lines_;
     Rows rows_;
 };
 
-/// A stream that owns its source, and passes on exceptions of the source.
+/// A stream that owns its source and rethrows exceptions of the source.
 class StreamOfDiscs : public std::istream {
 public:
     explicit StreamOfDiscs(std::unique_ptr<LinesOfDiscs> lines)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `discs.from`: reads the discs of another run's checkpoint or frame as lines of a file of discs.
-// So they are checked and sent to their ranks like all listed discs. The lines are made while they
-// are read, some thousands at a time, so that no rank has to store all of them. Each rank can read
-// the lines of its own share. Discs that have left their box through an open side are left out, and
-// the others get new ids in the order of their old ones.
+// The lines are checked and sent to their ranks like all listed discs. They are made while they are
+// read, some thousands at a time, so that no rank has to store all of them. Each rank can read the
+// lines of its own share. Discs that have left their box through an open side are left out, and the
+// other discs get new ids in the order of their old ids.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,8 @@ struct ShareOfDiscs {
     std::vector<std::uint64_t> departed; ///< as FileOfDiscs::departed
 };
 
-/// Places keep the coordinates that the other run shows. If the scene has another `origin`, they
-/// differ from the places in the file by a sum that rounds; otherwise they are equal.
+/// Positions keep the coordinates that the other run shows. If the scene has another `origin`, the
+/// shift between the origins is added with rounding; otherwise positions equal those in the file.
 ///
 /// Finds the frame of `step`, or the last one. `wanted` are columns beside the states, which are
 /// read if the file has them. The lines are those of `share`, or of all discs without it. Call

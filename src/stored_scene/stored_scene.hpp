@@ -21,7 +21,7 @@ SceneParameters scene_of(const CheckpointHeader& header,
                          const std::vector<std::string>& more_overrides);
 
 /// Throws InputError if the checkpoint belongs to another run than the scene; `place` names the
-/// checkpoint in its problems.
+/// checkpoint in the message.
 void refuse_other_run(const CheckpointHeader& header, const SceneParameters& scene,
                       const std::string& place);
 

@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// A candidate in a message: its key in the total order, and where its verdict has to go.
+/// A candidate in a message: its key in the total order, and where its decision must be sent.
 struct BoundaryResolution::Conflict {
     double time;
     DiscId p;
@@ -23,7 +23,7 @@ struct BoundaryResolution::Conflict {
     auto key() const { return std::tuple(time, p, second); }
 };
 
-/// What a rank reports about a candidate that has one of its discs and one disc of another rank.
+/// A rank's report about a candidate that has one disc of this rank and one disc of another rank.
 struct BoundaryResolution::Statement {
     double time;
     DiscId p, q;
@@ -108,8 +108,8 @@ void BoundaryResolution::find_first(const Population& population, const Candidat
     }
 }
 
-/// Keeps and rejects what this rank can decide, now that more discs are taken and the `is_struck`
-/// candidates are rejected.
+/// Keeps and rejects the candidates that this rank can decide, after more discs have been taken and
+/// the `is_struck` candidates have been rejected.
 void BoundaryResolution::walk_own(const Population& population,
                                   const std::vector<std::uint8_t>& is_struck, Candidates& undecided,
                                   Candidates& kept) {

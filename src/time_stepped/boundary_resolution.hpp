@@ -8,9 +8,9 @@
 // to each neighbour decides nearly everything in a gas, whatever the number of ranks.
 //
 // A chain that zigzags between strips takes a round for each crossing. So after a few rounds the
-// rest goes to a distributed sort. It is brought into the total order and walked, slice after
-// slice, and each slice passes on which discs are taken. A chain may span any number of strips.
-// Price of the sort: two any-to-any exchanges, and memory for these candidates only.
+// remaining candidates are sorted across the ranks into the total order. Slice after slice is then
+// walked, and passes on which discs are taken. So a chain may span any number of strips.
+// Cost of the sort: two any-to-any exchanges, and memory for these candidates only.
 #pragma once
 
 #include <cstdint>

@@ -31,7 +31,7 @@ template <class D> struct Broadcast {
 };
 
 /// Which flights of the vector that begins at `slot` might touch `flight`, as bits: those
-/// that are near already, and those that approach, do not pass by, and arrive before the
+/// that are already near, and those that approach closely enough and arrive before the
 /// window ends. Let d be the separation and w the relative velocity over the window, b =
 /// d.w, a = w.w, c = d.d - touching^2. All rounding in b^2 - a c, and in c at the window's
 /// end, is less than 18 * 2^-24 a d.d. So c with d.d shortened by 2^-19 loses no contact.
@@ -66,9 +66,9 @@ HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::ui
     return n_inside < 64 ? bits & ((std::uint64_t{1} << n_inside) - 1) : bits;
 }
 
-/// Writes (first, second) to `out`, behind the first `n_pairs`, for each slot `second` of `run` in
-/// `lanes` that might touch `flight`. Leaves out (first, first) if `first` may be one of them.
-/// Returns how many pairs there are now. `out` has room.
+/// Writes (first, second) to `out`, after the first `n_pairs`, for each slot `second` of `run` in
+/// `lanes` that might touch `flight`. With `is_one_of_them`, omits the pair (first, first). Returns
+/// the new number of pairs. `out` must have room.
 template <bool is_one_of_them, class D>
 HWY_INLINE std::size_t write_pairs(D d, const Broadcast<D>& flight, std::uint32_t first,
                                    const FlightLanes& lanes, SlotRange run, DiscPair* out,
@@ -84,7 +84,7 @@ HWY_INLINE std::size_t write_pairs(D d, const Broadcast<D>& flight, std::uint32_
     return n_pairs;
 }
 
-/// Room for `wanted` more items behind the first `size`, without clearing what is there.
+/// Makes room for `wanted` more items after the first `size`, without clearing the new room.
 template <class T> T* room(std::vector<T>& buffer, std::size_t size, std::size_t wanted) {
     if (buffer.size() < size + wanted) buffer.resize(2 * (size + wanted));
     return buffer.data();
@@ -105,9 +105,9 @@ struct NearPass {
 
 /// Finds the vectors of `run` in which a flight passes one of the flights of `cell` so closely that
 /// the discs may touch: (d x w)^2 <= touching^2 w.w, with d and w as above. This test costs half as
-/// much as testing the times, and rejects most vectors if discs fly much further than they are
-/// wide. It has no branch that depends on the data. Writes to `out` behind the first n entries,
-/// which has room for all, and returns the new number.
+/// much as the test of times, and rejects most vectors if discs fly much further than their
+/// diameter. It has no branch that depends on the data. Writes to `out` after the first n entries,
+/// where `out` has room for all, and returns the new number.
 template <class D>
 HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange cell,
                                         SlotRange run, float passing_squared, NearPass* out,
@@ -209,7 +209,7 @@ HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int colum
     return n_pairs;
 }
 
-/// Does the same as write_pairs for discs of the halo; `run` contains slots of the halo.
+/// Like write_pairs, for discs of the halo; `run` contains slots of the halo.
 template <class D>
 HWY_INLINE std::size_t write_halo_pairs(D d, const Broadcast<D>& flight, std::uint32_t first,
                                         const CellGrid& grid, SlotRange run,
@@ -233,7 +233,7 @@ HWY_INLINE std::size_t filter_halo(D d, const CellGrid& grid, int column, float 
         if (!grid.has_halo_in(other)) continue;
         for (int row = 0; row < n_rows; ++row) {
             const SlotRange run = grid.halo_run(other, row - reach, row + reach);
-            // true in all rows except those at the ends of a periodic box
+            // no halo discs here, except in rows near the ends of a periodic box
             if (run.begin == run.end) {
                 const int next = grid.next_halo_row(other, row + reach + 1);
                 if (next == n_rows) break;
@@ -281,8 +281,8 @@ struct CellsAround {
           last_row(grid.clamped_row(HWY_MAX(path.y_begin, path.y_end) + half_reach)) {}
 };
 
-/// Writes the pairs of a flight, which counts as `first`, with own discs in `cells`,
-/// and, if wanted, with the halo's discs there.
+/// Writes the pairs of a flight, whose index in pairs is `first`, with own discs in `cells`,
+/// and, if wanted, with halo discs there.
 template <bool is_one_of_them, class D>
 HWY_INLINE std::size_t filter_cells(D d, const CellGrid& grid, const Broadcast<D>& flight,
                                     std::uint32_t first, const CellsAround& cells, bool with_halo,

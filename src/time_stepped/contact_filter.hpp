@@ -13,9 +13,9 @@
 
 namespace carrom {
 
-/// Writes to the front of `pairs`, which grows as needed, all pairs (first, second) that might
-/// touch. `first` is an own disc in `column`. `second` is an own one after it in the half stencil,
-/// later in its own column or in one to the right, or a halo disc around it. Returns how many.
+/// Writes pairs (first, second) that might touch to the front of `pairs`, which grows as needed.
+/// `first` is an own disc in `column`. `second` is a halo disc around it, or an own disc after it
+/// in the half stencil: later in its column, or in one to the right. Returns the number of pairs.
 std::size_t filter_column(const CellGrid& grid, int column, float touching_squared,
                           std::vector<DiscPair>& pairs);
 

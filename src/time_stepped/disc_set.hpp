@@ -44,7 +44,7 @@ private:
     /// The slot that contains the disc, or the free slot where it would be inserted. At least half
     /// of all slots are free.
     std::size_t place_of(LocalIndex disc) const {
-        // Of 2^32; scatters consecutive numbers
+        // The golden section times 2^32; scatters consecutive numbers
         constexpr std::uint32_t golden_section = 0x9E3779B9;
         std::size_t place = disc * golden_section >> (32 - n_bits_);
         while (slots_[place].round == round_ && slots_[place].disc != disc)

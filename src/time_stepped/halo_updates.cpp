@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the time-stepped engine treats discs and candidates that two ranks know of.
+// How the time-stepped engine treats discs and candidates that two ranks hold.
 #include "time_stepped/time_stepped_engine.hpp"
 
 namespace carrom {
 
 namespace {
-/// for fewer updates, starting threads costs more than it saves
+/// below this number of updates, starting threads costs more than it saves
 constexpr std::size_t least_for_threads = 1000;
 } // namespace
 
-/// Two ranks may know of a candidate. It is counted by the owner of its first disc.
+/// Two ranks may hold a candidate. The owner of its first disc counts it.
 template <class Dynamics>
 std::uint64_t TimeSteppedEngine<Dynamics>::count_ours(std::span<const Candidate> candidates) const {
     if (discs_.has_no_halo()) return candidates.size();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs that are much larger than most. If cells were wide enough for them, each small disc would
-// be compared with all others within the reach of a large one. So cells are made for most discs,
-// and the few large ones search on their own. Which discs count as large affects the run's time,
-// not its bits.
+// Discs that are much larger than most. If cells were wide enough for these discs, each small disc
+// would be compared with all others within the reach of a large disc. So cells fit most discs, and
+// the few large discs are searched separately. Which discs count as large affects the run time,
+// but no bits.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-// Values of marks that are no candidate numbers.
+// Values of marks that are not numbers of candidates.
 constexpr std::uint32_t free_disc = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t taken_disc = free_disc - 1;
 constexpr std::uint32_t blocked_disc = free_disc - 2;
@@ -27,7 +27,7 @@ void write(std::uint32_t& mark, std::uint32_t value) {
     std::atomic_ref<std::uint32_t>(mark).store(value, std::memory_order_relaxed);
 }
 
-/// Writes `number` to `mark` if this candidate comes before the one whose number is there. If
+/// Writes `number` to `mark` if its candidate comes before the one whose number is in `mark`. If
 /// several threads write at the same time, one number may be lost.
 void offer(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live,
            const TotalOrder& before) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides which candidates of one micro-step (or part of one) happen, as far as this rank alone can
-// decide it.
+// Decides which candidates of a micro-step (or of a part of it) happen, as far as this rank can
+// decide alone.
 //
 // The rule is the sorted walk: keep a candidate if neither of its discs is taken yet. A candidate
 // that is first for both of its discs is final. Keeping all of these, rejecting their rivals and
@@ -31,10 +31,10 @@ class LocalResolution {
 public:
     explicit LocalResolution(int n_threads) : n_threads_(n_threads) {}
 
-    /// Decides the candidates `live`, which are used up. No disc may be taken before.
+    /// Decides the candidates `live`, and empties this list. No disc may be taken before.
     void resolve(const Population& population, Candidates& live, Verdicts& verdicts);
 
-    int rounds_before_walk = 12; ///< affects only the cost; 0 walks at once
+    int rounds_before_walk = 12; ///< affects only the cost; with 0 the walk starts immediately
 
 private:
     // One round: keeps the candidates that are first for both discs, removes their rivals from

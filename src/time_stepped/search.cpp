@@ -17,12 +17,12 @@ namespace {
 
 /// Number of discs between the prefetch of the flights around a disc and its search
 constexpr std::size_t around_ahead = 4;
-/// The partners of this many discs are listed before their contacts are predicted.
+/// Number of discs whose partners are listed before their contacts are predicted.
 constexpr std::size_t hits_per_batch = 128;
 /// Number of pairs between the prefetch of states and their use. States of a pair are far apart in
 /// memory.
 constexpr std::size_t pairs_ahead = 8;
-/// A request to stop is tested once in this many pairs.
+/// Number of pairs between two tests for a request to stop.
 constexpr std::size_t pairs_between_checks = 65536;
 
 /// Adds a candidate that was predicted from the states at the beginning of micro-step `from`.
@@ -70,7 +70,7 @@ void MicroStepList::drop_stale(std::span<const WindowState> states) {
 }
 
 /// Moves the list out, so that its memory is freed before later lists grow. The next window
-/// allocates it again.
+/// allocates the list again.
 Candidates SearchLists::take(std::size_t bucket, std::span<const WindowState> states) {
     MicroStepList& list = by_micro[bucket];
     most_candidates = std::max(most_candidates, list.candidates.size());
@@ -209,8 +209,8 @@ float Search<Dynamics>::half_reach(const CellGrid& grid, double reach, double ra
     return grid.cells_of(reach / 2 + radius + dynamics_.slack());
 }
 
-/// Predicts contacts of disc k of those set apart. Its partners are all discs in cells, unless it
-/// is large, and all later discs set apart, unless both are large.
+/// Predicts contacts of disc k in the list of discs set apart. Its partners are all discs in cells,
+/// unless it is large, and all later discs set apart, unless both are large.
 template <class Dynamics>
 void Search<Dynamics>::predict_apart(const Population& population, const CellGrid& grid,
                                      const Window& window, const Bounds& bounds, double reach,
@@ -299,7 +299,7 @@ void Search<Dynamics>::predict_again(const Population& population, const CellGri
     }
 }
 
-/// Fills `lists.pairs` with the discs of `hit`, each with the discs that it might touch.
+/// Fills `lists.pairs` with pairs of each disc of `hit` and a disc that it might touch.
 template <class Dynamics>
 void Search<Dynamics>::find_pairs_around(const Population& population, const CellGrid& grid,
                                          const Bounds& bounds, float from, double reach,

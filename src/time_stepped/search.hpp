@@ -2,8 +2,8 @@
 // Finds the candidates of a window: every contact in it, once, sorted by micro-step.
 //
 // A prediction is a function of two stored states. It stays valid until one of them changes, so
-// after a micro-step only the discs that collided are predicted again. Threads own columns of cells
-// and have lists of their own; no result depends on the order of the lists. Price: some 30
+// after a micro-step only the discs that collided are predicted again. Each thread owns columns of
+// cells and has its own lists; no result depends on the order of the lists. Cost: some 30
 // single-precision tests a disc and window, a double one for each survivor.
 #pragma once
 
@@ -22,7 +22,7 @@
 namespace carrom {
 
 /// The candidates of one micro-step, in sections by the time of prediction. The `seen` of a section
-/// is the number of the last state that existed then.
+/// is the number of the last state at that time.
 struct MicroStepList {
     struct Section {
         WindowState seen = 0; ///< the last state of any disc at that time
@@ -59,20 +59,20 @@ public:
     /// Cells are made for discs up to `usual_radius`; larger ones search on their own.
     Search(const Dynamics& dynamics, int n_threads, double usual_radius);
     double usual_radius() const { return usual_radius_; }
-    /// Lists the large discs. The grid must have been built for the next window, before
+    /// Lists the large discs. Call it after the grid was built for the next window, and before
     /// CellGrid::set_apart.
     void list_large(const Population& population, const CellGrid& grid);
-    /// Replaces the dynamics after a sync, because moving images are then elsewhere.
+    /// Replaces the dynamics after a sync, because moving images have other positions then.
     void change_dynamics(const Dynamics& dynamics) { dynamics_ = dynamics; }
 
-    /// Predicts all contacts in `window`. The grid must have been built for it. `reach` is the
+    /// Predicts all contacts in `window`, for which the grid must have been built. `reach` is the
     /// reach of discs up to the usual radius, without those that the grid has set apart.
     void predict_all(const Population& population, const CellGrid& grid, const Window& window,
                      double reach);
 
-    /// Predicts the contacts of the discs that collided in micro-step `from` - 1 (own or halo;
-    /// `wall` stands for none), for the window's micro-steps from `from` on. The grid and `states`,
-    /// by disc, must be up to date. `reach` is as in predict_all.
+    /// Predicts the contacts of own and halo discs that collided in micro-step `from` - 1, for the
+    /// window's micro-steps from `from` on; skips entries `wall_index`. The grid and `states`,
+    /// indexed by disc, must be up to date. `reach` is as in predict_all.
     void predict_again(const Population& population, const CellGrid& grid, const Window& window,
                        int from, double reach, std::span<const LocalIndex> hit,
                        std::span<const WindowState> states);

@@ -54,7 +54,7 @@ public:
         stop(disc, m, t);
     }
 
-    /// The walls that the disc bounces off at t; none if it bounces off a fixed body.
+    /// The walls that the disc bounces off at t; empty if it bounces off a fixed body.
     CARROM_DEVICE MetWalls met(const DiscState& before, double m, double t) const {
         if (has_fixed_bodies() && t != side_time(before, m)) return {};
         DiscState disc = before;

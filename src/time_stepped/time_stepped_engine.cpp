@@ -90,7 +90,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::end_window(bool is_c
     part_ = 0;
 }
 
-/// Chooses a window, and brings discs to their strips, halo discs to the ranks that need them, and
+/// Chooses a window. Then brings discs to their strips, halo discs to the ranks that need them, and
 /// all of them into cells.
 template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n_left) {
     const PhaseClock::Scope scope(phases_, Phase::redistribute);
@@ -202,7 +202,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate() {
     migrate_at(time_);
 }
 
-/// A disc was sorted by its old flight, but is now where the new flight takes it. So `flown`
+/// A disc was sorted by its old flight, but its position now follows the new flight. So `flown`
 /// includes the old flight and the new one, which began at a change of state, not before
 /// `unchanged_until_`. Between the parts of a micro-step no state changes.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate_at(double time) {
@@ -312,7 +312,7 @@ template <class Dynamics>
     DiscState& q = results[c.q];
     const PairStress<Dynamics> before(p, q);
     const Separation to = is_summed ? dynamics_.separation_at(p, q, m + c.time) : Separation{};
-    // Spins do not affect the search, so they change at once even in a divided micro-step.
+    // Spins do not affect the search, so they change immediately, even in a divided micro-step.
     dynamics_.collide(p, q, m + c.time, Dynamics::never, {spin_of(c.p), spin_of(c.q)});
     StepWalls(dynamics_).stop(p, m, c.time);
     StepWalls(dynamics_).stop(q, m, c.time);
@@ -333,8 +333,8 @@ template <class Dynamics>
     return std::max(squared_speed_of(p), squared_speed_of(q));
 }
 
-/// Carries out the kept candidates and returns the largest speed afterwards. Records the discs for
-/// another search, unless the window ends here.
+/// Carries out the kept candidates and returns the largest speed afterwards. Unless the window
+/// ends here, records the discs, because their contacts must be predicted again.
 template <class Dynamics>
 double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m, DiscStates& results) {
     constexpr std::int64_t prefetch_distance = 16;

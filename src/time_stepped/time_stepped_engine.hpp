@@ -2,12 +2,12 @@
 // The time-stepped method on ranks and threads. A window of time goes through these phases:
 //
 //   redistribute  Own discs go to their strips and cells. Halo discs come from the neighbours.
-//   search        It finds every contact of the window, from stored states alone.
+//   search        Every contact of the window is found, from stored states alone.
 //
 // Then for each micro-step of the window, in step on all ranks:
 //
-//   resolve       Local rounds. Conflict chains across strips go through a distributed sort.
-//   apply         Discs that were taken get new states. Halos are updated. Another search follows.
+//   resolve       Local rounds decide; a distributed sort decides chains across strips.
+//   apply         Discs that collide get new states. Halos are updated. Another search follows.
 //
 // If discs are fast, a micro-step is divided into parts, each a window of its own. States do not
 // change until the micro-step ends, so that every candidate is found. `outcomes_` contains the new
@@ -92,10 +92,10 @@ private:
     int part_ = 0, n_parts_ = 1;
 
     double refreshed_speed_ = 0; ///< largest speed at the last sync, and 0 after it was used
-    /// Time of the first change of a state since the last migration, or before
+    /// A time not later than the first change of a state since the last migration
     double unchanged_until_ = 0;
 
-    /// Bound of speeds in the next window, relative to the largest speed
+    /// Upper bound of speeds in the next window, relative to the largest speed
     double speed_allowance_ = 1.02;
     /// Collisions per disc and micro-step in the last sync interval
     double hits_per_micro_step_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An interval of time that is searched at once: several whole micro-steps, or a part of one if
-// discs are fast.
+// An interval of time that one search covers: several whole micro-steps, or a part of one
+// micro-step if discs are fast.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace carrom {
 
 /// The number of a disc's state: 0 at the window's start, n + 1 after the window's micro-step n,
-/// counted from 0. Comparing it needs one byte for each disc instead of a cache line.
+/// counted from 0. A comparison reads one byte for each disc instead of a cache line.
 using WindowState = std::uint8_t;
 inline constexpr int longest_window = 254; ///< longest window in micro-steps
 
@@ -33,7 +33,7 @@ struct Window {
     CARROM_DEVICE double begin() const { return first_micro + part_begin; }
     CARROM_DEVICE double duration() const { return n_micro > 1 ? n_micro : part_end - part_begin; }
     /// Strips and cells are made for the positions at this time. If it is the middle of the window,
-    /// no disc moves further from there than in half the window. That does not hold for discs that
+    /// no disc moves further from its position than in half the window. This fails for discs that
     /// fly on after a collision, so a window of several micro-steps uses its start.
     CARROM_DEVICE double anchor() const {
         return n_micro > 1 ? first_micro : first_micro + (part_begin + part_end) / 2;

@@ -2,11 +2,11 @@
 // libFuzzer on the reader of checkpoints. It replaces bytes of an undamaged file, because random
 // bytes would fail at the checksums.
 //
-// Input: a first byte, then edits of 4 bytes and more: a place among those that are not empty (3
-// bytes), a length or a kind of edit (1), the new bytes. An odd first byte means a forged file:
-// only values of the header and of the discs change, and the checksums are made right, so that HDF5
-// and the reader's own checks are reached. (damaged_files.cpp has forged metadata.) A file must
-// give a valid checkpoint, or an error of code 2; one that differs and is not forged must be an
+// Input: a first byte, then edits of at least 4 bytes: a place among the non-empty bytes of the
+// file (3 bytes), a length or a kind of edit (1), the new bytes. An odd first byte means forgery:
+// only values of the header and of the discs change, and the checksums are corrected, so that HDF5
+// and the reader's own checks are reached. (damaged_files.cpp forges metadata.) Every file must
+// give a valid checkpoint or an error of code 2. A changed file that is not forged must give an
 // error. docs/understanding/hard-cases.md has the commands.
 #include <algorithm>
 #include <cstddef>
@@ -46,8 +46,8 @@ std::vector<char> whole_checkpoint(const Communicator& world) {
     return test::bytes_of(path());
 }
 
-/// The places of bytes that are not empty, because most of a small file is the space between its
-/// data sets.
+/// The places of non-empty bytes, because most of a small file is empty space between its data
+/// sets.
 std::vector<std::size_t> places_in(const std::vector<char>& bytes) {
     constexpr std::size_t margin = 8;
     std::vector<std::size_t> places;
@@ -123,7 +123,7 @@ struct Ground {
 
     Ground(int& argc, char**& argv) : mpi(argc, argv) {
         demand(whole[places_of_values.front()] ==
-               // the first value is the version 0.x, so this tests that the places are right
+               // the first value is the version 0.x, so this tests that the places are correct
                '0');
     }
 };

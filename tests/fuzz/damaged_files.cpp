@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads files in which bytes anywhere have been replaced, also in HDF5's own metadata: checkpoints
-// with right checksums, as a forger would make them, trajectories, logs of collisions, and
-// recordings that a run continues. Each is read in a process of its own with 4 GB of memory and ten
+// Reads files in which bytes have been replaced anywhere, even in HDF5's own metadata: checkpoints
+// with correct checksums (as if forged), trajectories, logs of collisions, and recordings that a
+// run continues. Each file is read in a separate process with 4 GB of memory and ten
 // seconds.
 //   damaged_files COUNT [SEED [KIND]]      COUNT files of each kind; prints the numbers of those
 //                                          that have failed
-//   damaged_files 1 SEED KIND              this file only, which is left at the printed path
-// Each file must be read or be an error. A crash within HDF5 must also end in an error, and is
-// counted. Exit code 1 after a crash, another exception, or more memory or time than that.
+//   damaged_files 1 SEED KIND              only this file, which is left at the printed path
+// Each file must be read or give an error. A crash within HDF5 must also end in an error, and is
+// counted. Exit code 1 after a crash, another exception, or more memory or time than allowed.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -43,7 +43,7 @@ constexpr rlim_t most_memory = rlim_t{4} << 30;
 constexpr rlim_t most_seconds = 10;
 enum Ending { is_read = 0, is_refused = 2, is_refused_in_a_crash = 3, has_thrown = 50 };
 
-/// The file of the first process, also used by those that it starts.
+/// The path of the file, which the first process and its child processes use.
 const std::string& path() {
     static const std::string name = "/dev/shm/carrom_damaged_" + std::to_string(::getpid()) + ".h5";
     return name;
@@ -70,8 +70,8 @@ struct Kind {
     std::function<void(const std::string&)> read;
 };
 
-/// The places of bytes that are not empty, because most of a small file is the space between its
-/// data sets.
+/// The places of non-empty bytes, because most of a small file is empty space between its data
+/// sets.
 std::vector<std::size_t> places_in(const Kind& kind) {
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < kind.whole.size(); ++i) {
@@ -115,7 +115,7 @@ std::vector<char> damaged(const Kind& kind, const std::vector<std::size_t>& plac
     return bytes;
 }
 
-/// Reads the file in a process of its own, which ends here.
+/// Reads the file in a child process, and ends this process.
 [[noreturn]] void read_and_exit(const Kind& kind) {
     const rlimit memory = {most_memory, most_memory}, time = {most_seconds, most_seconds};
     ::setrlimit(RLIMIT_AS, &memory);
@@ -134,7 +134,7 @@ std::vector<char> damaged(const Kind& kind, const std::vector<std::size_t>& plac
     }
 }
 
-/// Counts which of `count` damaged files neither can be read nor are an error.
+/// Counts the failures among `count` damaged files: files that are neither read nor give an error.
 int try_kind(const Kind& kind, std::uint64_t seed, std::uint64_t count) {
     const std::vector<std::size_t> places = places_in(kind);
     int n_bad = 0, n_read = 0, n_crashed = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small files of each kind for tests of damage, and right checksums for damaged checkpoints.
+// Small files of each kind for tests of damage, and correct checksums for damaged checkpoints.
 #pragma once
 
 #include <string>
@@ -13,23 +13,23 @@ namespace carrom::test {
 
 /// All bytes of a file.
 std::vector<char> bytes_of(const std::string& path);
-/// Replaces the file.
+/// Replaces the contents of the file.
 void write_bytes(const std::string& path, const std::vector<char>& bytes);
 
 /// Twelve rough discs at step 70 of a scene of the time-stepped method. **Collective.**
 void write_sample_checkpoint(const std::string& path, const Communicator& world);
 
-/// Three frames of twelve discs with their counters; compressed, and with angular velocities, or
-/// not. **Collective.**
+/// The layout of a sample trajectory: double precision with spins, or single precision.
+/// The trajectory has three frames of twelve discs. Writing is **collective.**
 TrajectoryLayout sample_layout(bool is_double);
 void write_sample_trajectory(const std::string& path, bool is_double, const Communicator& world);
 
-/// Gives damaged copies of a checkpoint right checksums: HDF5's own ones of its metadata, and
-/// Carrom's. All remain at their places. Not collective.
+/// Writes a log of twenty collisions, with pairs and walls.
+/// **Collective.**
 void write_sample_log(const std::string& path, const Communicator& world);
 
-/// Gives damaged copies of a checkpoint right checksums: HDF5's own over its metadata, and those of
-/// carrom. All stand where they stood. Of one rank.
+/// Corrects the checksums of damaged copies of a checkpoint: HDF5's own for its metadata, and
+/// those of Carrom. All keep their places in the file. Not collective.
 class Forger {
 public:
     explicit Forger(const std::string& whole);

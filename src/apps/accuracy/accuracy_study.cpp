@@ -16,8 +16,8 @@ namespace carrom {
 
 namespace {
 
-/// Both methods with K = 1, `factor`, factor^2, ...; the first setting is the reference: the
-/// event-driven method with default arithmetic.
+/// Both methods, each with K = 1, `factor`, factor^2, ... micro-steps. The first setting is the
+/// reference: the event-driven method with default arithmetic.
 std::vector<RunSetting> settings_of(const StudyOptions& options, std::int64_t factor) {
     std::vector<RunSetting> settings;
     for (std::int64_t k = 1; k <= options.most_micro_steps; k *= factor) {
@@ -49,8 +49,8 @@ struct Study {
     Tuning tuning;
 };
 
-/// Makes independent initial states: with other seeds if discs are generated, otherwise the same
-/// discs after different numbers of collisions.
+/// Makes independent initial states. Generated discs get another seed; discs from a file are run
+/// for a different number of collisions.
 TrialStart make_start(const Study& study, int number) {
     const double approach = study.options.approach;
     if (study.scene.generator == Generator::file)
@@ -88,7 +88,7 @@ struct Item {
     RunSetting setting;
 };
 
-/// This process's share of the trials, ordered by start; settings alternate.
+/// This process's share of the trials, in the order of starts; the settings take turns.
 std::vector<Item> items_of(const StudyOptions& options, const std::vector<RunSetting>& settings,
                            int n_repetitions) {
     std::vector<Item> items;
@@ -101,7 +101,7 @@ std::vector<Item> items_of(const StudyOptions& options, const std::vector<RunSet
     return items;
 }
 
-/// Makes each start once and calls `begin(start)`, then `run(item, start)` for its items.
+/// Makes each start once; calls `begin(start)`, then `run(item, start)` for the start's items.
 template <class Begin, class Run>
 void run_all(const Study& study, const std::vector<Item>& items, const Begin& begin,
              const Run& run) {
@@ -124,8 +124,8 @@ void run_all(const Study& study, const std::vector<Item>& items, const Begin& be
     }
 }
 
-/// The discs, by id, at each sample, which is taken after about every collision of a disc. Throws
-/// InputError if a run cannot continue.
+/// Runs the setting and returns the discs, by id, at each sample; a disc collides about once
+/// between two samples. Throws InputError if a run cannot continue.
 std::vector<std::vector<InputDisc>> trace(const Study& study, const RunSetting& setting,
                                           const TrialStart& start, std::int64_t every,
                                           std::int64_t steps) {
@@ -140,7 +140,7 @@ std::vector<std::vector<InputDisc>> trace(const Study& study, const RunSetting& 
     return samples;
 }
 
-/// Runs one trial. `exact` are the discs of the exact run at the early step.
+/// Runs one trial. `exact`: the discs of the exact run at the early step.
 TrialOutcome attempt(const Study& study, const RunSetting& setting, const TrialStart& start,
                      const TrialLength& length, const std::vector<InputDisc>& exact) {
     try {
@@ -149,7 +149,7 @@ TrialOutcome attempt(const Study& study, const RunSetting& setting, const TrialS
         return {std::move(trial), distance, ""};
     } catch (const InputError& error) {
         return {{}, {}, error.problems().front().text};
-    } catch (const CollectiveError& error) { // a collision cascade
+    } catch (const CollectiveError& error) { // a collision cascade ended the run
         return {{}, {}, error.what()};
     }
 }
@@ -188,7 +188,7 @@ void study_distances(const SceneParameters& scene, const std::vector<InputDisc>&
     std::vector<Item> items = items_of(options, settings, 1);
     std::erase_if(items, [&](const Item& item) {
         return item.setting == settings[0];
-    }); // the exact run has the distance 0 from itself
+    }); // the exact run is not compared with itself
     std::int64_t every = 1, last = 1;
     std::vector<std::vector<InputDisc>> exact;
     const auto begin = [&](const TrialStart& start) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two studies of `carrom accuracy`. One measures how settings change collision
-// rates and pressures, and at what cost; the other how discs depart from those of the
-// exact run with time. Both run every setting from the same starts.
+// The two studies of `carrom accuracy`. One measures how settings change the collision rate, the
+// pressure and the cost. The other measures how far discs move away from those of the exact run.
+// Both run every setting from the same initial states.
 #pragma once
 
 #include <cstdint>
@@ -28,13 +28,13 @@ struct StudyOptions {
     bool quiet = false;
 };
 
-/// Costs and errors of K = 1, 2, 4, ... in both methods; repetitions take turns.
+/// Measures costs and errors of K = 1, 2, 4, ... micro-steps in both methods; settings take turns.
 /// Throws InputError. Called on one rank.
 void study_costs(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                  const StudyOptions& options, const Communicator& ranks);
 
-/// Distances to the exact run after about each collision of a disc, for K = 1, 16,
-/// 256. Throws InputError. Called on one rank.
+/// Measures distances of discs to the exact run for K = 1, 16 and 256, with samples after about
+/// each collision of a disc. Throws InputError. Called on one rank.
 void study_distances(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                      const StudyOptions& options, const Communicator& ranks);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lines of the tables of `carrom accuracy`: one for each trial or, in the table of
-// distances along time, one for each sample.
+// The lines of the tables of `carrom accuracy`: one line for each trial or, in the table of
+// distances against time, one for each sample.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace carrom {
 
-/// The first columns of a line. No two lines of a table have the same ones.
+/// The first columns of a line, which together differ between any two lines of a table.
 struct TrialKey {
     int start = 0; ///< number of the initial state, from 0
     RunSetting setting;
@@ -22,8 +22,8 @@ struct Distance {
     double root_mean_square = 0, median = 0;
 };
 
-/// The results of a trial. If it could not be run to its end `failure` has the reason, and there
-/// are no numbers. `distance` is measured from the exact run at the early step.
+/// The results of a trial. If it could not be run to its end, `failure` has the reason and there
+/// are no numbers. `distance` is the distance to the exact run at the early step.
 struct TrialOutcome {
     Trial trial;
     Distance distance;

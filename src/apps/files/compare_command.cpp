@@ -87,7 +87,7 @@ SceneParameters read_scene_on_all(const CompareOptions& options,
     return scene;
 }
 
-/// Grades step after step; returns whether no line differs. **Collective.**
+/// Compares step after step; returns whether all lines agree. **Collective.**
 bool grade(ComparedRuns& runs, Grader& grader, const Communicator& ranks) {
     int goes_on = 1, has_left_runs = 0, is_right = 0;
     for (std::int64_t step = 0; goes_on == 1; ++step) {
@@ -105,7 +105,7 @@ bool grade(ComparedRuns& runs, Grader& grader, const Communicator& ranks) {
     return is_right == 1;
 }
 
-/// **Collective.**
+/// Runs `carrom compare`. **Collective.**
 ExitCode compare(const CompareOptions& options, const Communicator& ranks) {
     std::unique_ptr<std::istream> scene_file;
     std::ifstream output_file;

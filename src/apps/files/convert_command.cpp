@@ -28,11 +28,11 @@ namespace {
 
 enum class Format { xyz, text, csv };
 
-/// Names of columns when a file is written as text, if they differ from the names in the file.
+/// The names that columns of text get; names in the file may differ.
 constexpr std::array<std::string_view, 6> common_columns = {
     "x", "y", "vx", "vy", "pair_collisions", "wall_collisions"};
 
-/// The columns that only some files have.
+/// The places of columns that only some files have.
 std::vector<std::size_t> other_columns(const FileSummary& summary) {
     std::vector<std::size_t> places;
     for (std::size_t k = 0; k < summary.columns.size(); ++k)
@@ -42,7 +42,7 @@ std::vector<std::size_t> other_columns(const FileSummary& summary) {
     return places;
 }
 
-/// Chemical symbols, because readers of extended XYZ accept nothing else; X is not an element.
+/// Chemical symbols, because readers of extended XYZ accept no other names. X is no element.
 constexpr std::array<std::string_view, 119> symbols = {
     "X",  "H",  "He", "Li", "Be", "B",  "C",  "N",  "O",  "F",  "Ne", "Na", "Mg", "Al", "Si",
     "P",  "S",  "Cl", "Ar", "K",  "Ca", "Sc", "Ti", "V",  "Cr", "Mn", "Fe", "Co", "Ni", "Cu",
@@ -53,18 +53,18 @@ constexpr std::array<std::string_view, 119> symbols = {
     "Th", "Pa", "U",  "Np", "Pu", "Am", "Cm", "Bk", "Cf", "Es", "Fm", "Md", "No", "Lr", "Rf",
     "Db", "Sg", "Bh", "Hs", "Mt", "Ds", "Rg", "Cn", "Nh", "Fl", "Mc", "Lv", "Ts", "Og"};
 
-/// Returns the species of discs, disc after disc.
+/// Finds the species of discs, one disc after another.
 class Bodies {
 public:
     explicit Bodies(const FileSummary& summary)
         : species_(summary.species), all_{summary.n_rows, summary.radius, 1} {}
-    /// Call it in the order of ids, and from id 0 again for the next frame.
+    /// Returns the species of a disc. Call it in the order of ids; id 0 begins a new frame.
     const Species& of(std::uint64_t id) {
         if (id == 0) k_ = 0, end_ = species_.empty() ? all_.count : species_[0].count;
         while (id >= end_) end_ += species_[++k_].count;
         return species_.empty() ? all_ : species_[k_];
     }
-    /// The symbol of the last disc's species: H, He and so on, or X.
+    /// The symbol of the disc of the last call: H, He and so on for species 0, 1, ..., or X.
     std::string_view symbol() const {
         return species_.empty() || species_.size() >= symbols.size() ? symbols[0] : symbols[k_ + 1];
     }
@@ -76,13 +76,13 @@ private:
     std::uint64_t end_ = 0;
 };
 
-/// The first two lines of a frame of extended XYZ. OVITO takes velocities from `velo`, ASE takes
+/// The first two lines of a frame of extended XYZ. OVITO reads velocities from `velo`; ASE computes
 /// them from `momenta` and `mass`.
 void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::int64_t step) {
     std::string others;
     for (const std::size_t k : other_columns(summary))
         others += fmt::format(":{}:R:1", summary.columns[k]);
-    std::string corner; // the origin, in the form that OVITO reads
+    std::string corner; // the origin, in OVITO's form
     if (summary.origin != std::array<double, 2>{})
         corner = fmt::format("Origin=\"{} {} 0\" ", 0 - summary.origin[0], 0 - summary.origin[1]);
     fmt::format_to(std::back_inserter(out),
@@ -129,7 +129,7 @@ public:
     }
 
 private:
-    /// The number in a common column, or 0 if the file does not have the column.
+    /// The number in a common column, or 0 if the file lacks the column.
     double number(const Rows& rows, std::size_t i, std::size_t column) const {
         return places_[column] < rows.size() ? rows[places_[column]][i] : 0;
     }
@@ -144,7 +144,7 @@ private:
 
     Format format_;
     Bodies bodies_;
-    std::size_t radius_now_; ///< the column of the radii of discs that exchange radii
+    std::size_t radius_now_; ///< column of present radii, if discs exchange radii
     std::vector<std::size_t> places_, others_;
 };
 
@@ -190,7 +190,7 @@ void write_log(const FrameFile& file, DataOutput& output) {
     }
 }
 
-/// The reason why a file cannot be written in that format; empty if it can.
+/// The reason why a file cannot be written in `format`; empty if it can.
 std::string reason_against(const FileSummary& summary, Format format) {
     if (format == Format::csv) return {};
     if (summary.kind == FileKind::collisions)
@@ -200,7 +200,7 @@ std::string reason_against(const FileSummary& summary, Format format) {
     return {};
 }
 
-/// Returns the failure of the output, or empty.
+/// Converts the file on one rank. Returns why the output failed; empty if it did not.
 std::string convert_alone(const std::string& path, Format format, const std::string& target) {
     const FrameFile file(path);
     std::vector<NamedFile> sources = {{"the file to convert", path}};
@@ -222,7 +222,7 @@ std::string convert_alone(const std::string& path, Format format, const std::str
     return output.failure();
 }
 
-/// **Collective.**
+/// Runs `carrom convert`. **Collective.**
 ExitCode convert(const std::string& path, Format format, const std::string& target,
                  const Communicator& ranks) {
     check_damage(path, ranks);

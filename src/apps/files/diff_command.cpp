@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// **Collective.**
+/// Runs `carrom diff`. **Collective.**
 ExitCode diff(const std::array<std::string, 2>& paths, const Communicator& ranks) {
     for (const std::string& path : paths) check_damage(path, ranks);
     int is_same = 1;

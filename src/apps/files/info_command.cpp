@@ -43,7 +43,7 @@ std::string frames_text(const std::vector<std::int64_t>& steps) {
     return steps.size() > 1 ? text + fmt::format(", every {}", every) : text;
 }
 
-/// The time span of a log, whose collisions are in the order of time.
+/// The time span of a log. Collisions in a log are sorted by time.
 std::string span_text(const FrameFile& file) {
     const FileSummary& summary = file.summary();
     const std::uint64_t n = summary.n_rows;
@@ -56,7 +56,7 @@ std::string span_text(const FrameFile& file) {
                                               last[step][0], first[time][0], last[time][0]));
 }
 
-/// The fields of a trajectory, by their names in scenes.
+/// The fields of a trajectory, by the names that scenes use.
 std::string fields_text(const FileSummary& summary) {
     std::vector<std::string> fields;
     const auto add = [&](const char* field, const char* column) {
@@ -77,7 +77,7 @@ std::string trajectory_text(const FileSummary& summary) {
            labelled_line("frames", frames_text(summary.steps));
 }
 
-/// A line for each species, or one line if all discs are equal.
+/// One line for each species, or one line in all if the discs are equal.
 std::string species_text(const FileSummary& summary) {
     constexpr std::size_t most_lines = 20;
     if (summary.species.empty())
@@ -125,8 +125,8 @@ std::string header_text(const CheckpointHeader& header) {
     try {
         const Effects effects = scene_of(header, {}).effects;
         if (effects.are_any()) text += labelled_line("effects", summary_of(effects));
-    } catch (const InputError&) { // a scene of another version cannot be read; the rest is
-                                  // printed
+    } catch (const InputError&) { // scenes of other versions cannot be read; print the
+                                  // rest
     }
     std::string overrides;
     std::istringstream lines(header.scene_overrides);
@@ -135,7 +135,7 @@ std::string header_text(const CheckpointHeader& header) {
     return overrides.empty() ? text : text + labelled_line("set", overrides);
 }
 
-/// **Collective.**
+/// Runs `carrom info`. **Collective.**
 ExitCode info(const std::string& path, const Communicator& ranks) {
     const std::optional<CheckpointHeader> header = check_damage(path, ranks);
     std::string text;

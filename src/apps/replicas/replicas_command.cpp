@@ -50,7 +50,7 @@ struct ReplicasOptions {
     std::string folder;
 };
 
-/// The keys of seeds, which differ between replicas.
+/// The keys of random seeds. Each replica gets other seeds.
 std::vector<const Key*> seeds_of(const SceneParameters& scene) {
     std::vector<const Key*> seeds;
     for (const Key& key : keys())
@@ -73,7 +73,7 @@ RunOptions options_of(const ReplicasOptions& options, const SceneParameters& sce
     return one;
 }
 
-/// Throws InputError if the folder has a run of another scene.
+/// Whether the replica is complete. Throws InputError if its folder has another run.
 bool is_done(const RunOptions& one, const Communicator& rank) {
     if (!one.resume) return false;
     const SceneParameters scene = load_scene_alone(one, {}, rank);

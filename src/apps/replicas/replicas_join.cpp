@@ -46,7 +46,7 @@ bool differ_by_rounding(const Mean& mean, double scatter) {
     return scatter <= rounding * std::fabs(mean.value);
 }
 
-/// A line for the terminal. Values that differ only by roundings have no error.
+/// A line for the terminal. No error is printed if values differ only by rounding.
 std::string line_of(const std::string& name, const Mean& mean, double scatter) {
     if (differ_by_rounding(mean, scatter))
         return fmt::format("{:<20}{:.6g} in each\n", name, mean.value);
@@ -57,7 +57,7 @@ Json or_null(double number) { return std::isfinite(number) ? Json(number) : Json
 double number_of_json(const Json& json) { return json.is_number() ? json.get<double>() : NAN; }
 std::string field(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
 
-/// One average of a report; `path` is a JSON pointer to it, or to its number if it has no error.
+/// An average in a report; `path` is the JSON pointer to it, or to its number if it has no error.
 struct AveragedColumn {
     std::string name, path;
 };
@@ -81,7 +81,7 @@ std::vector<AveragedColumn> averaged_columns() {
     return columns;
 }
 
-/// A part of an average, "value" or "error". A number without an error is its own value.
+/// A part of an average, "value" or "error"; a plain number is its own value and has no error.
 double part_of(const Json& report, const AveragedColumn& quantity, const char* part) {
     const Json::json_pointer path(quantity.path);
     if (!report.contains(path)) return NAN;
@@ -94,17 +94,17 @@ double value_in(const Json& report, const AveragedColumn& quantity) {
     return part_of(report, quantity, "value");
 }
 
-/// The errors that replicas report, compared with the scatter between replicas.
+/// Compares the errors that replicas report with the scatter between replicas.
 struct Claims {
     double claimed = NAN;       ///< root mean square of the errors; NaN if there are none
     double ratio = NAN;         ///< scatter divided by `claimed`
     std::size_t n_changing = 0; ///< number of replicas that are still changing
-    std::size_t n_silent = 0;   ///< number of replicas that are too short for an error
+    std::size_t n_silent = 0;   ///< number of replicas too short for an error
 
     bool are_too_small(std::size_t n_replicas) const;
 };
 
-/// A limit of chi squared over its degrees of freedom, which 999 of 1000 values do not exceed
+/// A limit of chi squared divided by its degrees of freedom, exceeded by chance once in 1000 cases
 /// (Wilson and Hilferty, Proc. Natl. Acad. Sci. 17, 684 (1931)).
 double most_of_chi_squared(double freedom) {
     constexpr double deviations = 3.09;
@@ -112,9 +112,9 @@ double most_of_chi_squared(double freedom) {
     return std::pow(1 - spread + deviations * std::sqrt(spread), 3);
 }
 
-/// Whether the reported errors are clearly too small. Errors from some ten independent samples are
-/// too small by more than a tenth (statistics/blocking.hpp), so this alone does not justify a
-/// warning.
+/// Whether the reported errors are clearly too small. Errors from ten independent samples are too
+/// small by more than a tenth (statistics/blocking.hpp), so a small excess of the scatter does not
+/// justify a warning.
 bool Claims::are_too_small(std::size_t n_replicas) const {
     constexpr double allowed = 1.15;
     return n_replicas > 1 &&
@@ -138,7 +138,7 @@ Claims claims_of(const std::vector<Json>& reports, const AveragedColumn& quantit
     return claims;
 }
 
-/// The warning about single runs, or an empty text.
+/// Collects signs that single runs are too short, and makes a warning of them.
 class SingleRuns {
 public:
     explicit SingleRuns(std::size_t n_replicas) : n_replicas_(n_replicas) {}
@@ -198,7 +198,7 @@ std::string remark_of_means(const std::string& table) {
     return fmt::format("# {}: {}\n", table, means_remark);
 }
 
-/// Whether replicas may replace a file in their folder.
+/// Whether a file in the replicas' folder was written by replicas, so that it may be replaced.
 bool may_be_replaced(const std::filesystem::path& path) {
     const std::string name = path.filename().string(), stem = path.stem().string();
     if (name == "replicas.json") {
@@ -226,7 +226,7 @@ std::string lines_of_replicas(const std::vector<Replica>& replicas,
     return text + '\n';
 }
 
-/// Whether a column contains the errors of another one, as estimated by each run.
+/// Whether a column has the errors that each run has estimated for another column.
 bool is_error_of_run(const std::string& column, const Json& table) {
     return column.ends_with("_error") && table.contains(column.substr(0, column.size() - 6));
 }
@@ -339,7 +339,7 @@ JoinedReplicas join_replicas(const std::vector<Replica>& replicas, const std::st
         std::vector<double> values;
         for (const Json& report : reports) values.push_back(value_in(report, quantity));
         const Mean mean = mean_of(values);
-        if (!std::isfinite(mean.value)) continue; // a replica lacks the value
+        if (!std::isfinite(mean.value)) continue; // NaN if a replica lacks it
         const double scatter = mean.error * std::sqrt(static_cast<double>(replicas.size()));
         const Claims claims = claims_of(reports, quantity, scatter);
         joined[quantity.name] = {{"value", mean.value},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joint results of independent runs of one scene: means, and errors from the runs' differences.
+// Joins the results of independent runs of one scene: means, and errors from the runs' scatter.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ struct Replica {
     std::uint64_t seed = 0;
 };
 
-/// Problems for each file in the folder that the replicas would replace but that was not written by
-/// replicas.
+/// Problems with files in the folder that the replicas would replace but that replicas have not
+/// written; one for each such file.
 std::vector<Problem> problems_with_joined_files(const std::string& folder);
 
-/// The last step in the folder's report; nothing if there is no complete report.
+/// The last step in the report of the folder; nullopt if there is no complete report.
 std::optional<std::int64_t> last_step_reported(const std::string& folder);
 
-/// Text for the terminal.
+/// The joint results as text for the terminal.
 struct JoinedReplicas {
     std::string averages;
     std::string warning; ///< one line; empty if there is no warning

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of `carrom run`, checked one by one so that all wrong ones are printed at once.
+// The options of `carrom run`. Each is checked, so that one message lists all wrong options.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace carrom {
 
-/// The options of `carrom run`. They set `run`, which must live as long.
+/// The options of `carrom run`. They write to `run`, which must live as long as they do.
 std::vector<Option> run_options(RunOptions& run);
 
-/// Completes the options when all are read. `overrides` are the options that set a key. Appends
-/// problems of options that exclude each other.
+/// Fills in values that depend on several options, and appends problems of options that exclude
+/// each other. Call it when all options are read. `overrides` are the options that set a key.
 RunOptions completed(RunOptions options, std::vector<Problem>& problems);
 
 } // namespace carrom

@@ -2,8 +2,8 @@
 // The discs of a step as lines of text, in id order: `step id x y vx vy`, with ` p_c w_c` on the
 // last step.
 //
-// Each rank sorts its own discs by id, and sends slab after slab of ids to rank 0. Price: a
-// sort of indices (4 bytes per disc), every disc sent once, some 0.8 us per line on rank 0.
+// Each rank sorts its own discs by id and sends them to rank 0 in slabs of consecutive ids. Cost: a
+// sort of indices (4 bytes a disc), sending every disc, and 0.8 us a line on rank 0.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@
 
 namespace carrom {
 
-/// The numbers of a line, in the scene's units.
+/// The numbers in a line, in the scene's units.
 struct DiscLine {
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;
     std::uint64_t pair_collisions = 0, wall_collisions = 0;
 };
 
-/// Appends one line. 17 digits are significant ones, which read back as the same bits;
-/// fewer are decimals.
+/// Appends one line. `digits` are decimals, except that 17 means 17 significant digits, which a
+/// reader turns into the same bits.
 void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& line, int digits,
                  bool with_counters);
 
@@ -37,10 +37,10 @@ public:
     DiscLines(const SceneParameters& scene, const std::string& path, int digits,
               const Communicator& ranks, std::uint64_t slab = default_slab);
 
-    /// Lines of `last_step` get the counters, and no lines of later steps are written.
+    /// Lines of `last_step` include counters of collisions; lines of later steps are not written.
     void end_at(std::int64_t last_step) { last_step_ = last_step; }
 
-    /// The next step after `step` that has to be written, or the last one.
+    /// The next step after `step` whose lines must be written; at most the last step.
     std::int64_t next_due(std::int64_t step) const;
 
     bool is_due(std::int64_t step) const;
@@ -48,8 +48,8 @@ public:
     /// Writes the present step. If that fails every rank throws. **Collective.**
     void write(const DiscSystem& system);
 
-    /// To be called after the last step. Every rank throws unless all lines have been
-    /// written. **Collective.**
+    /// Call it after the last step. Every rank throws unless all lines have been written.
+    /// **Collective.**
     void close();
 
 private:

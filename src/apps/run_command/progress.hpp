@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The progress of a run on standard error: one line that is rewritten on a terminal, a
-// line now and then in a batch log.
+// The progress of a run on standard error. A terminal gets one line that is rewritten, a batch log
+// gets a new line at each print.
 //
-// Lines in a log come at growing intervals, so a week-long run leaves some hundred of
-// them. Under mpirun standard error is a pipe even at a terminal, so it gets lines, too.
+// The intervals between lines in a log grow, so that a run of a week prints some hundred lines.
+// Under mpirun standard error is a pipe even at a terminal, so it gets lines as a log does.
 #pragma once
 
 #include <chrono>
@@ -42,7 +42,7 @@ public:
     Progress(std::int64_t first_step, std::int64_t last_step, bool wanted)
         : first_step_(first_step), last_step_(last_step), line_(wanted) {}
 
-    /// May be called at any rate; prints if it is time.
+    /// Prints if enough time has passed; may be called as often as one likes.
     void show(std::int64_t step);
     /// Ends the rewritten line, so that the next output starts on a line of its own.
     void finish() { line_.finish(); }
@@ -52,10 +52,10 @@ private:
     StatusLine line_;
 };
 
-/// "step 120 of 1000 (12.0 %), 345 steps/s, 0:02:33 left"
+/// Text such as "step 120 of 1000 (12.0 %), 345 steps/s, 0:02:33 left".
 std::string progress_text(std::int64_t step, std::int64_t first_step, std::int64_t last_step,
                           double seconds);
-/// "0:02:33"
+/// Text such as "0:02:33".
 std::string time_text(double seconds);
 
 } // namespace carrom

@@ -64,7 +64,7 @@ nlohmann::ordered_json lost_collisions_json(const LostCollisions& lost) {
     return {{"share", lost.share}, {"pressure_error", lost.pressure_error}};
 }
 
-/// Adds watched numbers and the line of doubts, if there are any.
+/// Adds the watched numbers and the doubts about averages, if there are any.
 void add_doubts(nlohmann::ordered_json& report, const RunResult& result) {
     if (!result.watched.empty()) report["watched"] = watched_json(result.watched);
     if (const std::string doubts = doubts_of_run(result); !doubts.empty())
@@ -86,7 +86,7 @@ nlohmann::ordered_json averages_json(const Averages& averages) {
             {"speed_kurtosis", estimate_json(averages.speed_kurtosis)}};
 }
 
-/// Adds what ended the run and the GPU, if there was one.
+/// Adds the condition that ended the run early and the GPU, if there were any.
 void add_stop_and_gpu(nlohmann::ordered_json& report, const RunResult& result) {
     if (!result.device.name.empty())
         report["gpu"] = {{"name", result.device.name}, {"memory_bytes", result.device.bytes}};
@@ -97,7 +97,7 @@ void add_stop_and_gpu(nlohmann::ordered_json& report, const RunResult& result) {
                                 {"step", reason->step}};
 }
 
-/// Thermodynamics is at the top of the report, because most readers want it.
+/// Thermodynamic averages come first in the report, because most readers want these.
 void add_thermodynamics(nlohmann::ordered_json& report, const SceneParameters& scene,
                         const Averages& averages) {
     const std::string no_heat = reason_without_temperature(scene.effects, scene.n_discs),
@@ -119,7 +119,7 @@ void add_thermodynamics(nlohmann::ordered_json& report, const SceneParameters& s
                                  {"yy", estimate(averages.pressure_tensor.yy, no_heat)}};
 }
 
-/// Columns of numbers; null for a missing one.
+/// The tables, column by column; null stands for a missing number.
 nlohmann::ordered_json tables_json(const std::vector<MeasuredTable>& tables) {
     nlohmann::ordered_json all = nlohmann::ordered_json::object();
     for (const MeasuredTable& table : tables) {
@@ -142,8 +142,8 @@ template <class Numbers> nlohmann::ordered_json by_name(const Numbers& numbers) 
     return all;
 }
 
-/// The velocity of the centre of mass of the discs in the box. If discs of several masses have
-/// left, the mass of the others is unknown.
+/// The centre-of-mass velocity of the discs in the box. It is unknown if discs have left and masses
+/// differ, because the mass of the remaining discs is then unknown.
 nlohmann::ordered_json drift_velocity(const SceneParameters& scene, const Totals& end) {
     const std::uint64_t n_departed = std::accumulate(end.departed.begin(), end.departed.end(),
                                                      std::uint64_t{0});

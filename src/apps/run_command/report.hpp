@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report of a finished run for other programs.
+// The report of a finished run, for programs to read.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace carrom {
 
-/// A JSON object; keys are described in docs/reference/report.md.
+/// The report as a JSON object; docs/reference/report.md describes its keys.
 std::string report_text(const SceneParameters& scene, const RunResult& result);
 
 } // namespace carrom

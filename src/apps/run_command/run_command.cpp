@@ -79,7 +79,7 @@ void print_result(const RunOptions& options, const SceneParameters& scene, const
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }
 
-/// The error of a run that abandoned a step after `step`; `kept` names the state that was stored.
+/// The error of a run that gave up the step after `step`; `kept` names the state that was stored.
 StopRequested given_up(std::int64_t step, const std::string& kept, const SceneParameters& scene) {
     return StopRequested(fmt::format(
         "stopped on request inside a step after {} of {}, which would take too long; {}{}", step,
@@ -91,7 +91,7 @@ StopRequested given_up(std::int64_t step, const std::string& kept, const ScenePa
 /// Writes the lines of discs to standard output or a file, and shows the progress.
 class ShownSteps : public StepAction {
 public:
-    /// In a restart the lines of the first step are not written again. **Collective.**
+    /// A restarted run does not write the lines of its first step again. **Collective.**
     ShownSteps(const Run& run, const RunOptions& options)
         : run_(run), lines_(run.scene(), options.output, options.digits, run.ranks()),
           progress_(run.step(), run.scene().steps, run.ranks().is_root() && !options.quiet),
@@ -108,7 +108,7 @@ public:
     }
     /// The last step that has been completed.
     std::int64_t last_step() const { return last_step_; }
-    /// **Collective.**
+    /// Ends progress and lines of discs. **Collective.**
     void finish() {
         progress_.finish();
         lines_.close();
@@ -128,14 +128,14 @@ private:
     std::int64_t last_step_;
 };
 
-/// Runs to the end of the scene with all outputs. Returns false if a stop was requested before.
-/// **Collective.**
+/// Runs to the end of the scene with all outputs. Returns false if a request stopped the run before
+/// its end. **Collective.**
 bool step_to_end(Run& run, const RunOptions& options, FolderGuard& guard, double& output_seconds) {
     const SceneParameters& scene = run.scene();
     Stopwatch watch;
     Recordings recordings(run, options.messages);
     Checkpoints checkpoints(run, scene.checkpoint);
-    // From here on files are replaced and removed, because all errors of the input have been found.
+    // Outputs are replaced and removed only from here on, when the whole input has been checked.
     prepare_outputs(scene, !run.is_restart(), run.ranks());
     ShownSteps shown(run, options);
     recordings.begin();
@@ -164,7 +164,7 @@ bool step_to_end(Run& run, const RunOptions& options, FolderGuard& guard, double
     return is_done;
 }
 
-/// **Collective.**
+/// Makes the run check its invariants at each step. **Collective.**
 void check_every_step(DiscSystem& system, const SceneParameters& scene) {
     if (scene.precision != Precision::double_ || scene.arithmetic != Arithmetic::stable)
         throw InputError({{"--check", 0,
@@ -183,7 +183,7 @@ void warn_of_threads(int threads, bool are_chosen, const Communicator& ranks) {
         print_message("warning: {}: running with {} threads a rank\n", unheeded, threads);
 }
 
-/// **Collective.**
+/// Warns if this machine computes other bits. **Collective.**
 void warn_of_other_bits(const Communicator& ranks) {
     const std::string difference = warning_of_other_bits(ranks);
     if (ranks.is_root() && !difference.empty()) print_message("warning: {}\n", difference);
@@ -197,8 +197,8 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     Stopwatch watch;
     std::optional<StopSignals> signals;
     if (options.input != "-")
-        signals.emplace(ranks.is_root()); // signals are recorded only now, because reading standard
-                                          // input may wait for a long time
+        signals.emplace(ranks.is_root()); // standard input may take long to read, and until then a
+                                          // signal must end the program
     Loaded loaded = load(options, problems, ranks);
     if (!signals) signals.emplace(ranks.is_root());
     Tuning tuning = options.tuning;
@@ -250,7 +250,7 @@ Subcommand run_subcommand() {
         if (!has_input)
             problems.push_back({"carrom run", 0,
                                 "no input; name a SCENE.toml, a FILE.in, or - for standard input"});
-        // The run may have to wait for standard input
+        // While a run waits for standard input, a signal must end it
         const bool reads_input = options.input == "-";
         if (!has_input) return failing(problems);
         return {[options = std::move(options), problems](const Communicator& ranks) {

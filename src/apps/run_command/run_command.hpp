@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `carrom run` takes a scene to its last step, with its lines on standard output and a
-// summary at the end.
+// `carrom run` simulates a scene to its last step. It prints lines of discs to standard output, and
+// a summary at the end.
 #pragma once
 
 #include "apps/run_command/command_options.hpp"
@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// Runs a whole scene with all its outputs. `problems` of the command line are thrown
-/// together with the scene's. **Collective.**
+/// Runs a scene with all its outputs. `problems` of the command line are thrown together with those
+/// of the scene. **Collective.**
 ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
                    const Communicator& ranks);
 

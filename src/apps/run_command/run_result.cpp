@@ -27,7 +27,7 @@ double disc_steps(const RunResult& result) {
 /// The largest of the ranks' times over their mean; 1 if all are 0. **Collective.**
 double imbalance_of(double seconds, const Communicator& ranks) {
     const auto nanoseconds = static_cast<std::uint64_t>(
-        1e9 * seconds); // whole numbers, because ranks may add them in any order
+        1e9 * seconds); // integers, because their sum does not depend on the order of the ranks
     const auto sum = static_cast<double>(ranks.sum(nanoseconds));
     return sum > 0 ? static_cast<double>(ranks.max(nanoseconds)) * ranks.size() / sum : 1;
 }
@@ -122,7 +122,7 @@ double collisions_per_disc(const SceneParameters& scene, const RunResult& result
 
 namespace {
 
-/// Below this an error is a fifth too small on average (statistics/blocking.hpp).
+/// With fewer samples an error is a fifth too small on average (statistics/blocking.hpp).
 constexpr int fewest_independent_samples = 8;
 
 } // namespace
@@ -140,8 +140,8 @@ std::string reason_without_error(const Estimate& estimate, const Averages& avera
 
 namespace {
 
-/// A text that names the watched numbers that change, or for which the run is too short because
-/// they fluctuate slowly, and the consequence; empty if there are none.
+/// One text with the watched numbers that still change or that fluctuate too slowly for the run's
+/// length, and with the consequence; empty if there are none.
 std::string changes_of(std::span<const WatchedNumber> watched) {
     std::vector<std::string> all;
     for (const WatchedNumber& one : watched) {
@@ -201,8 +201,8 @@ std::string doubts_of_run(const RunResult& result) {
 
 namespace {
 
-/// The number of discs whose centres are within a diameter of a disc's centre, if discs did not
-/// collide.
+/// The mean number of discs that would overlap a given disc, if all discs were placed at random as
+/// in an ideal gas.
 double ideal_overlaps(const SceneParameters& scene) {
     const std::vector<Species> alike = {{scene.n_discs, scene.radius, 1}};
     const std::vector<Species>& species = scene.effects.species.empty() ? alike
@@ -217,8 +217,8 @@ double ideal_overlaps(const SceneParameters& scene) {
 
 } // namespace
 
-/// Discs that overlap pass through each other. So the ratio of overlaps to those of an ideal gas
-/// shows how many collisions are lost. 0.8 and 3.2 are fitted to lost_collisions.csv.
+/// In the time-stepped method a lost collision lets two discs overlap. So the overlaps, relative to
+/// an ideal gas, show how many are lost. 0.8 and 3.2 are fitted to lost_collisions.csv.
 LostCollisions lost_collisions(const SceneParameters& scene, const RunResult& result) {
     const double ideal = ideal_overlaps(scene);
     if (scene.method != Method::time_stepped || !(ideal > 0) ||
@@ -227,7 +227,7 @@ LostCollisions lost_collisions(const SceneParameters& scene, const RunResult& re
     const double overlaps = overlapping_pairs_per_disc(result) / ideal;
     LostCollisions lost;
     lost.share = std::max(1 - std::exp(-overlaps * (0.8 + 3.2 * scene.packing())),
-                          rejected_share(result)); // at least this share is lost
+                          rejected_share(result)); // at least the rejected candidates are lost
     const double z = result.averages.compressibility.value, kept = 1 - lost.share;
     if (kept > 0 && z > 1) {
         const double exact = 1 + (z - 1) / kept;
@@ -264,7 +264,7 @@ double guarded_share(const RunResult& result) {
 }
 
 std::string warning_of_guarded_collisions(const SceneParameters& scene, const RunResult& result) {
-    // If contacts last, they take the energy at the next sync.
+    // Contacts that last take that energy at the next sync, so no warning is needed.
     if (scene.effects.lasting_speed > 0) return {};
     constexpr std::uint64_t fewest = 100; // with fewer collisions the share is random
     const double share = guarded_share(result);

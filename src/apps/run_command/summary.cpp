@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-/// Choices that give other bits than the default; empty for the default.
+/// Arithmetic options that differ from the default and change the bits of results; may be empty.
 std::string arithmetic_text(const SceneParameters& scene) {
     std::string text;
     if (scene.precision == Precision::single) text += ", precision = \"single\"";
@@ -44,12 +44,12 @@ std::string phases_text(const RunResult& result) {
     return text;
 }
 
-/// How even the ranks' work is, and the phase in which it is least even.
+/// The imbalance of the ranks' work, and the phase with the largest imbalance.
 std::string imbalance_text(const RunResult& result) {
     std::string text = fmt::format("{:.3f} times the mean of the ranks' own work on the busiest",
                                    result.imbalance);
-    const double enough = 0.1 * busy_seconds(result.phase_seconds); // short phases are left out:
-                                                                    // they are uneven by chance
+    const double enough = 0.1 * busy_seconds(result.phase_seconds); // shorter phases are uneven by
+                                                                    // chance, so they are omitted
     double most = 0;
     std::string uneven;
     for (std::size_t k = 0; k < result.phase_imbalance.size(); ++k) {
@@ -74,7 +74,7 @@ std::string estimate_text(const Estimate& estimate) {
     if (std::isnan(estimate.value)) return "undefined";
     if (estimate.is_conserved) return fmt::format("{:.7g} (conserved)", estimate.value);
     const bool has_ends = std::isfinite(estimate.first) && std::isfinite(estimate.last);
-    // the first or the last block has no collision, or no disc
+    // NaN: the first or the last block has no collision, or no disc
     if (estimate.is_changing && !has_ends)
         return fmt::format("{:.5g} (still changing)", estimate.value);
     if (estimate.is_changing)
@@ -190,7 +190,7 @@ std::string time_lines(const RunResult& result, std::int64_t last_step) {
     return text;
 }
 
-/// Text such as "energy = 0.207 +- 0.02", for each number that is watched.
+/// Text such as "energy = 0.207 +- 0.02" for each watched number.
 std::string watched_text(const std::vector<WatchedNumber>& watched) {
     std::string text;
     for (const WatchedNumber& one : watched) {
@@ -227,7 +227,7 @@ std::string average_lines(const SceneParameters& scene, const RunResult& result)
     return doubts.empty() ? text : text + labelled_line("errors", doubts);
 }
 
-/// Empty if no collision takes energy.
+/// The line on guarded collisions; empty if collisions take no energy.
 std::string guarded_line(const RunResult& result) {
     if (result.end.energy_taken == 0 && result.end.energy_spared == 0) return {};
     return labelled_line("guarded",

@@ -8,7 +8,7 @@
 
 namespace carrom {
 
-/// Lines of text, each with a line end.
+/// The summary as lines of text; each ends with a line break.
 std::string summary_text(const SceneParameters& scene, const RunResult& result);
 
 } // namespace carrom

@@ -11,8 +11,8 @@
 
 namespace {
 
-/// Returns false, and prints the reason once, if the launcher of another MPI library has started
-/// several copies of the program, each of which is a run of one rank.
+/// Returns false and prints the reason once if the launcher of another MPI library has started
+/// several copies of the program. Each copy would otherwise run the whole scene as a single rank.
 bool is_started_well(const carrom::Communicator& ranks) {
     const carrom::LoneProcess process = carrom::lone_process(ranks.size());
     if (!process.problem.empty() && process.is_first)

@@ -58,7 +58,7 @@ Action printed(std::string text) {
     }};
 }
 
-/// The facts that a report of a problem should contain. MPI need not be started.
+/// Facts on this build that a bug report should contain. Does not need MPI.
 std::string version_text() {
     const BuildFacts facts = build_facts();
     return fmt::format("carrom {}\n"
@@ -71,7 +71,7 @@ std::string version_text() {
                        vector_target());
 }
 
-/// Prints the version, and whether this build computes the same bits as others.
+/// Prints the version, and whether this build computes the same bits as other builds do.
 Action version_and_bits() {
     return {[](const Communicator& ranks) {
                 const std::string difference = warning_of_other_bits(ranks);
@@ -89,7 +89,7 @@ Action refused(const std::string& reason) {
     return failing({{"command line", 0, reason + " (see carrom --help)"}});
 }
 
-/// A switch takes no value, because CLI11 would read `NAME=no` as its opposite.
+/// Declares a switch, which takes no value, because CLI11 would read `NAME=no` as its opposite.
 void declare_switch(CLI::App& command, const Option& option, bool& is_on) {
     const auto complaint = [](const std::string& word) {
         return word == "true" ? std::string{} : "takes no value; leave \"=" + word + "\" out";
@@ -120,12 +120,12 @@ void declare(CLI::App& app, const Subcommand& subcommand) {
     command->set_help_flag(help_words, help_of_help);
     for (const Option& option : subcommand.options) declare(*command, option);
     command->footer(subcommand.footer);
-    // Extra words are accepted here, so that all of them are reported at once
+    // CLI11 accepts extra words here, so that one message lists them all
     command->allow_extras();
 }
 
-/// Problems of words that belong to no option. After an unknown option they may be its values, so
-/// they are left out.
+/// Problems of words that belong to no option. If an option is unknown, other such words may be its
+/// values, so only the unknown option is reported.
 std::vector<Problem> leftovers(const Subcommand& subcommand, const CLI::App& command) {
     const std::string see = std::string("; see carrom ") + subcommand.name + " --help";
     std::vector<Problem> unknown, others;
@@ -138,7 +138,7 @@ std::vector<Problem> leftovers(const Subcommand& subcommand, const CLI::App& com
     return unknown.empty() ? others : unknown;
 }
 
-/// Reports empty words, which mostly come from shell variables that are not set.
+/// Reports empty words, which mostly come from unset shell variables.
 void add_empty_values(const CLI::App& command, std::vector<Problem>& problems) {
     for (const CLI::Option* option : command.get_options()) {
         const std::vector<std::string>& words = option->results();

@@ -6,8 +6,8 @@
 
 namespace carrom {
 
-/// Every rank has the same command line and gets the same action. Help, version and
-/// wrong command lines are actions, too. Starts nothing; not collective.
+/// Every rank gets the same command line and so the same action. Help, version and errors of the
+/// command line are actions, too. Does not start MPI; not collective.
 Action parse_command_line(int argc, char** argv);
 
 } // namespace carrom

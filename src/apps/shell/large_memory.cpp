@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program's large arrays ask for huge pages. Discs are accessed out of order, and if a page has
-// only 64 of them, most of the time is spent on finding the page. A gas of 1e6 discs is 1.3 times
-// as fast with huge pages on a Xeon. Systems that always use them are not affected.
+// The program asks for huge pages for its large arrays. Discs are accessed in no order, and with
+// pages of 64 discs most of the time is spent on address translation. With huge pages a gas of 1e6
+// discs runs 1.3 times as fast on a Xeon. Systems that always use them do not change.
 //
-// This is for the program only, because a library must not replace its user's memory functions.
+// Only the program does this, because a library must not replace its user's memory functions.
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -16,15 +16,15 @@ namespace {
 constexpr std::size_t huge_page = std::size_t{1} << 21;
 
 #ifdef M_MMAP_THRESHOLD
-// Returns each large array to the system when it is freed. By default glibc puts large arrays into
-// the heap after some of them have been freed, where growing lists leave holes of 4 bytes a disc.
-// Each request is larger than the array by a huge page, so that its beginning can be aligned.
-// Smaller lists are allocated in the heap, which keeps their memory.
+// Makes glibc return each large array to the system when it is freed. By default glibc soon puts
+// large arrays into the heap, where growing lists leave unused holes of 4 bytes a disc. Each
+// request has a huge page more than the array, so that the array's start can be aligned. Smaller
+// arrays come from the heap, which keeps their memory.
 [[maybe_unused]] const bool are_large_apart = mallopt(M_MMAP_THRESHOLD, 2 * huge_page) != 0 &&
                                               mallopt(M_TRIM_THRESHOLD, 8 * huge_page) != 0;
 #endif
 
-/// Returns null if there is no memory.
+/// Allocates memory; returns null if there is none.
 void* find_memory(std::size_t size, std::size_t alignment) {
     const bool is_large = size >= huge_page;
     if (is_large && alignment < huge_page) alignment = huge_page;

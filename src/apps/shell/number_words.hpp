@@ -16,8 +16,8 @@ namespace carrom {
 inline constexpr double least_above_0 = std::numeric_limits<double>::min(),
                         largest_double = std::numeric_limits<double>::max();
 
-/// Sets `number`, or an optional one, to a finite number from `least` to `most`; `why`
-/// gives the reason of the limits. `number` must live as long as the returned function.
+/// Makes a function that stores a finite number from `least` to `most` in `number`. `why` is the
+/// reason for the limits. `number` must live as long as the returned function.
 template <class Target, class Number>
 TakeWord number(Target& number, Number least, Number most, const char* why = "") {
     return [=, &number](const char* option, const std::string& word,
@@ -25,7 +25,7 @@ TakeWord number(Target& number, Number least, Number most, const char* why = "")
         Number value{};
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
         const bool is_number = error == std::errc{} && end == word.data() + word.size();
-        if (is_number && value >= least && value <= most) { // the comparisons are false for NaN
+        if (is_number && value >= least && value <= most) { // false for NaN
             number = value;
             return;
         }

@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-/// valgrind cannot follow the restart of a program.
+/// Whether valgrind runs the program; it cannot follow a program that restarts itself.
 bool is_in_valgrind() {
     const char* const preloaded = std::getenv("LD_PRELOAD");
     return preloaded != nullptr &&
@@ -23,7 +23,7 @@ bool is_in_valgrind() {
 }
 
 /// Allows this thread all processors that OpenMP may use. If threads are bound, OpenMP has already
-/// bound this one to a single place, which the new program would inherit.
+/// bound this thread to one place, and the restarted program would inherit this limit.
 void unbind() {
     cpu_set_t processors;
     CPU_ZERO(&processors);

@@ -25,7 +25,7 @@ void write_to_log(const std::string& text) {
 void keep_standard_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(stream, F_GETFD) != -1) continue;
-        // Opens as this number, because it is the lowest free one: those below are open.
+        // open() takes the lowest free number, which is this one: lower streams are open by now.
         if (open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) == -1) break;
     }
     std::signal(SIGPIPE, SIG_IGN);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Standard error that may be full or closed: a long run must not end because of its log.
+// Keeps a run alive if standard error is full or closed, because a log must not end a run.
 #pragma once
 
 #include <string_view>
@@ -11,14 +11,14 @@
 
 namespace carrom {
 
-/// Replaces each standard stream that is closed by one that cannot be read from (0) or
-/// written to (1, 2). Otherwise the next file would get its number, and messages would
-/// go into data. From here on a pipe without a reader is an error of writing, and does
-/// not end the process. To be called before anything is opened.
+/// Opens each closed standard stream as a stream on which reading (0) or writing (1, 2) fails.
+/// Otherwise the next file would get the stream's number, and messages would be written into data.
+/// A pipe without a reader then gives a write error, and does not end the process. Call it before
+/// any file is opened.
 void keep_standard_streams();
 
-/// Prints to standard error; escapes control characters except ends of lines. Text
-/// that cannot be written is dropped, because there is no reader.
+/// Prints to standard error, with control characters escaped except ends of lines. Text that cannot
+/// be written is dropped, because no one could read an error message.
 void print_text(std::string_view text);
 
 template <class... Values>
@@ -29,8 +29,8 @@ void print_message(fmt::format_string<Values...> format, Values&&... values) {
 /// Prints the messages of a run to standard error on rank 0, and drops them on the others.
 Messages messages_of(const Communicator& ranks, bool is_quiet);
 
-/// Writes the rest of standard output. Returns false, with a message, if any of it was
-/// lost, but not if the reader of a pipe has ended.
+/// Flushes standard output. Returns false and prints a message if output was lost, except where the
+/// reader of a pipe has ended.
 bool finish_standard_output();
 
 /// Whether standard error is a terminal, whose last line can be rewritten.

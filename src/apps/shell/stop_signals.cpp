@@ -14,11 +14,11 @@ namespace carrom {
 
 namespace {
 
-// Any thread of the process may run the handler, so `volatile` would not be enough.
-std::atomic<int> signal_that_has_come = 0; // used only for the message
+// Atomic, because any thread of the process may run the handler; `volatile` is not enough.
+std::atomic<int> signal_that_has_come = 0; // for the message only
 std::atomic<bool> is_answer_due = false;
 
-/// A signal handler: calls only functions that are allowed there.
+/// Prints the answer to a signal. Called in a handler, so it uses only functions allowed there.
 void answer(int number) {
     constexpr std::string_view text = "\ntold to stop: the steps under way are finished first if "
                                       "that takes no more than a second";
@@ -43,7 +43,7 @@ void record_signal(int number) {
 
 void record_stop_signals() {
     static bool are_noted = false;
-    if (are_noted) return; // a second call would take the handler for the default action
+    if (are_noted) return; // a second call would take our own handler for the default
     are_noted = true;
     struct sigaction action{};
     action.sa_handler = record_signal;
@@ -53,8 +53,8 @@ void record_stop_signals() {
     sigaction(SIGTERM, &action, nullptr);
     struct sigaction present{};
     sigaction(SIGINT, nullptr, &present);
-    if (present.sa_handler == SIG_IGN) return; // shells ignore it for background processes
-    action.sa_flags |= SA_RESETHAND;           // a second request ends the process at once
+    if (present.sa_handler == SIG_IGN) return; // shells ignore SIGINT for background processes
+    action.sa_flags |= SA_RESETHAND;           // a second Ctrl-C ends the process
     sigaction(SIGINT, &action, nullptr);
 }
 

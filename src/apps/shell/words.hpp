@@ -8,11 +8,11 @@
 
 namespace carrom {
 
-/// The word of `time.method`.
+/// The value of the key `time.method`: the name of the method.
 const char* name_of(Method method);
 
-/// A label of at most 12 characters and a text. The text may come from a file, so
-/// control characters are escaped.
+/// A line with a label of at most 12 characters and a text. Control characters in the text are
+/// escaped, because it may come from a file.
 std::string labelled_line(const char* label, const std::string& text);
 
 } // namespace carrom

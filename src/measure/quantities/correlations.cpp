@@ -3,7 +3,7 @@
 // mean square displacement, velocity autocorrelation, self-intermediate scattering function,
 // non-Gaussian parameter, overlap and its susceptibility chi_4.
 //
-// Lags and origins are those of multiple_tau.hpp. Memory: 32 bytes for each disc, point and level,
+// Lags and origins are chosen by multiple_tau.hpp. Memory: 32 bytes for each disc, point and level,
 // and a level is added whenever the time doubles. Price of a sample: each disc is sent once, and
 // compared with some 1.5 `correlation_points` of its earlier states.
 #include <algorithm>
@@ -27,8 +27,8 @@ namespace {
 
 constexpr QuantitySetting correlation_wavenumber{"correlation_wavenumber"},
     overlap_distance{"overlap_distance"};
-constexpr std::size_t most_species = 8; ///< more species get no tables of their own
-/// Largest number of waves in a radius. Over shorter waves discs only fly freely.
+constexpr std::size_t most_species = 8; ///< with more species there are no tables by species
+/// The largest number of waves in a radius; over shorter waves discs only fly freely.
 constexpr double shortest_waves = 1000;
 /// The number of ids in a run; each run is on one rank
 constexpr std::uint64_t ids_of_run = Pieces::least_rows;
@@ -93,9 +93,9 @@ struct Comparison {
     const FollowedStates &now, &before;
     double turns_per_length, overlap_squared;
 
-    /// Adds `n` discs from index `begin` on, at most a run of ids, to the moments `of`, in their
-    /// order. The terms are computed first, because ordered sums and whole numbers prevent
-    /// vectorisation.
+    /// Adds `n` discs from index `begin` on, at most a run of ids, to the
+    /// moments `of`, in the order of ids. The terms are computed first,
+    /// because ordered sums and whole numbers prevent vectorisation.
     void add_to(double* of, std::size_t begin, std::size_t n) const {
         // Not initialised, which saves a tenth of the time.
         std::array<double, ids_of_run> square, product, wave, is_near;
@@ -178,7 +178,7 @@ public:
         levels_.resize(n_levels, Level(scheme_.points()));
         for (Level& level : levels_)
             for (FollowedStates& states : level) keep_states(kept, states);
-        if (kept.is_restored() && kept.is_at_end()) return; // a checkpoint of an earlier version
+        if (kept.is_restored() && kept.is_at_end()) return; // earlier versions stored no more
         waiting_.keep(kept);
     }
 
@@ -246,8 +246,8 @@ private:
     }
 
     /// Adds this rank's discs to `sums`, which has a sum for each species, moment and run of ids.
-    /// Terms of one sum are added in the order of ids on one rank, so that all machine shapes have
-    /// the same bits.
+    /// Terms of one sum are added in the order of ids on one rank, so that any numbers of ranks and
+    /// threads give the same bits.
     void compare(const FollowedStates& now, const FollowedStates& before,
                  std::span<double> sums) const {
         const Comparison comparison{now, before, wavenumber_ / (2 * std::numbers::pi),
@@ -265,7 +265,7 @@ private:
 
     /// Adds the sums of all ranks, and adds a sample to each lag. **Collective.**
     void record_means(const std::vector<std::size_t>& lags, std::vector<double>& sums) {
-        // The rank of a sum has its value, and the others have zeros
+        // Only the rank that owns a sum has its value; all other ranks have 0
         std::vector<std::uint64_t> words(sums.size());
         for (std::size_t k = 0; k < sums.size(); ++k)
             words[k] = std::bit_cast<std::uint64_t>(sums[k]);

@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    /// If walls move, places are shares of the box at each sample.
+    /// If walls move, positions are fractions of the box at each sample.
     MeasuredTable along(const std::vector<std::uint64_t>& counts, const char* axis, double length,
                         double origin) const {
         bool is_moving = false;

@@ -68,7 +68,7 @@ public:
     double steps(std::size_t time) const {
         return static_cast<double>(static_cast<std::int64_t>(time) * every_steps_);
     }
-    /// One number from each window that has reached that time.
+    /// One number from each window that has reached `time`.
     template <class Number> std::vector<double> each(std::size_t time, const Number& number) const {
         std::vector<double> values;
         for (std::size_t k = time; 3 * k < numbers_.size(); k += n_times_)
@@ -108,7 +108,7 @@ MeasuredTable velocity_autocorrelation(const Windows& windows) {
     return table;
 }
 
-/// From half of the squares' growth in the second half of each window, for each axis separately.
+/// D from half the increase of mean squares in the second half of each window, for each axis.
 MeasuredTable diffusion(const Windows& windows) {
     const std::size_t last = windows.n_times() - 1, middle = last / 2;
     MeasuredTable table{"diffusion",

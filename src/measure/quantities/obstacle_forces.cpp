@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    /// The mean per step of one of the numbers that a row got in an interval.
+    /// The mean per step, in an interval, of the number `part` of a row.
     double rate_of(std::size_t interval, std::size_t row, std::size_t part) const {
         return given_[(interval * rows_.size() + row) * n_force_parts + part] /
                static_cast<double>(run_.output.every_steps);

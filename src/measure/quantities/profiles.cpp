@@ -2,9 +2,9 @@
 // "profiles": density, velocity, temperature relative to the local mean, the pressure tensor and
 // the flow of heat, on a grid of cells, averaged over successive blocks of time.
 //
-// Kinetic parts are sampled. Each collision counts: impulse times distance is shared by length
-// among the cells on the line between both centres, so that the force across any line of the grid
-// is right. Price: a pass over discs and cells a sample, and some hundred instructions a collision.
+// Kinetic parts are sampled; the others use every collision: impulse times distance is divided by
+// length among the cells on the line between both centres, so that the force across any grid line
+// is right. Price: a pass over discs and cells a sample, some hundred instructions a collision.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,7 +51,7 @@ void check_grid(const SceneDraft& draft) {
                         n_blocks, n_cells, profile_samples.key_name()));
 }
 
-/// Changes by which a run of this length, from its first sample on, would have a whole block.
+/// Suggests changes with which a run of this length, from its first sample on, has a whole block.
 std::string remedy_for_short_run(const MeasurementOutput& output, std::int64_t steps) {
     const std::string samples = profile_samples.key_name();
     const auto intervals = static_cast<std::int64_t>(profile_samples.of(output)) - 1;
@@ -63,7 +63,7 @@ std::string remedy_for_short_run(const MeasurementOutput& output, std::int64_t s
     return fmt::format("output.measurements.every_steps = {} or less", steps / intervals);
 }
 
-/// Not an error, because a restart may complete a block.
+/// Warns that no block is complete; no error, because a restart may complete one.
 void warn_without_blocks(const SceneDraft& draft) {
     const MeasurementOutput& output = *draft.scene.measurements;
     const std::int64_t steps = draft.scene.steps - output.from_step;
@@ -271,7 +271,7 @@ private:
         visit(sums.total());
     }
 
-    /// Adds this rank's discs to the sums, and those of all ranks to the means. **Collective.**
+    /// Adds this rank's discs to the sums, and all ranks' discs to the means. **Collective.**
     void take_sample() {
         sums_.add_discs(sample_);
         sample_.join_discs(run_.ranks);

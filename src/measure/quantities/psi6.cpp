@@ -154,8 +154,8 @@ private:
     }
 
     double largest_distance_;
-    /// For each sample: sums of real part, imaginary part and modulus, discs with 5, 6, 7
-    /// neighbours, discs
+    /// For each sample: sums of real part, imaginary part and modulus, numbers of discs with 5, 6
+    /// and 7 neighbours, and the number of discs
     std::vector<double> psi6_;
     std::vector<std::uint64_t> neighbours_, moduli_, pairs_; ///< counts as in HexaticSums
     std::vector<double> products_;                           ///< sums as in HexaticSums

@@ -101,7 +101,7 @@ public:
     }
 
 private:
-    /// The shares of independent pairs in each bin; the same as before unless walls move.
+    /// The shares of independent pairs in each bin; computed again only if the box has changed.
     const std::vector<double>& ideal_shares(const Extent& box, std::size_t n, double width) {
         const Box size = box.size();
         if (shares_.size() == n && size == box_of_shares_) return shares_;
@@ -112,8 +112,8 @@ private:
                                           static_cast<double>(k + 1) * width));
         return shares_;
     }
-    /// The share of independent pairs from `inner` to `outer` apart, in the part of the box that
-    /// centres have.
+    /// The share of independent pairs with distances from `inner` to `outer`, in the part of the
+    /// box that centres can reach.
     double ideal_share(const Box& box, double inner, double outer) const {
         const double a = box.x - 2 * run_.scene.radius, b = box.y - 2 * run_.scene.radius;
         const bool goes_round_x = run_.scene.effects.is_periodic_x(),

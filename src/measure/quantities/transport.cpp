@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // "transport": shear viscosity, bulk viscosity and thermal conductivity of a gas in a periodic box.
 //
-// They follow from the spread of Helfand moments, as the coefficient of diffusion follows from
-// displacements (Viscardi and Gaspard, Phys. Rev. E 68, 041204 (2003)). A moment's change is the
-// time integral of stress, or of the heat current. Both are sums over events and nothing is
-// sampled: the integral of f over a flight is a sum of time times the change of f at collisions. So
-// the derivative of the spread is Green and Kubo's integral without an error of quadrature. Lags
-// are those of multiple_tau.hpp. Price: a pass over the discs at each sample, and some hundred
-// instructions for each collision; memory for a few hundred numbers.
+// The coefficients follow from the spread of Helfand moments, as the coefficient of diffusion
+// follows from displacements (Viscardi and Gaspard, Phys. Rev. E 68, 041204 (2003)). A moment's
+// change is the time integral of stress, or of the heat current. Both are sums over events and
+// nothing is sampled: the integral of f over a flight is a sum of time times the change of f at
+// collisions. So the derivative of the spread is Green and Kubo's integral without an error of
+// quadrature. Lags are chosen by multiple_tau.hpp. Price: a pass over the discs at each sample, and
+// some hundred instructions for each collision; memory for a few hundred numbers.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -199,8 +199,8 @@ private:
     std::vector<VectorBlocks> lags_;
 };
 
-/// The spread divided by twice the lag is the mean. Its growth since the next shorter lag, divided
-/// by twice the difference of the lags, is the running integral of Green and Kubo.
+/// A coefficient is the spread divided by twice the lag. Its slope is the growth of the spread
+/// since the next shorter lag, over twice the difference of the lags: Green and Kubo's integral.
 std::vector<MeasuredTable> Transport::tables() const {
     MeasuredTable table{
         "transport",
@@ -224,7 +224,7 @@ std::vector<MeasuredTable> Transport::tables() const {
         const double mean_trace = means[3].value;
         const std::array<double, 3> spread = {
             means[0].value, means[1].value - mean_trace * mean_trace, means[2].value};
-        // The squared trace fluctuates with its mean, so that is subtracted.
+        // With t the trace, the error of <t^2> - <t>^2 is that of the mean of t^2 - 2 <t> t.
         const std::array about_mean = {0.0, 1.0, 0.0, -2 * mean_trace};
         const std::array<double, 3> errors = {
             means[0].error, lags_[lag].weighted_mean(about_mean).error, means[2].error};

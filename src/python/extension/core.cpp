@@ -10,7 +10,7 @@ namespace {
 
 /// Python's function (lines, exit code) that makes the exception for an error of the library.
 nb::object& error_maker() {
-    static auto* maker = new nb::object; // never destroyed, because Python ends before this would
+    static auto* maker = new nb::object; // never destroyed: Python ends before static objects do
     return *maker;
 }
 

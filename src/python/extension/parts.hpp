@@ -24,7 +24,7 @@ namespace carrom::python {
 
 namespace nb = nanobind;
 
-/// Numbers of all discs, of shape (N, 2) or (N,), in numpy's order of rows.
+/// Numbers of all discs, of shape (N, 2) or (N,), row after row (numpy's C order).
 template <class Number> using Rows = nb::ndarray<Number, nb::c_contig, nb::device::cpu>;
 using GivenPairs = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 using GivenNumbers = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
@@ -36,11 +36,11 @@ struct Core {
     Simulation simulation;
 };
 
-/// The session of all ranks of the process, which the first call makes; or a session of the ranks
-/// of a communicator, given by its Fortran number.
+/// The session of all ranks of the process, made by the first call; or a session of the ranks of a
+/// communicator, given by its Fortran number.
 std::shared_ptr<Session> session_of(std::optional<int> communicator);
 /// Releases the session of all ranks, so that MPI ends with its last simulation. A forked process
-/// does not end MPI, because it belongs to the parent.
+/// does not end MPI, because MPI belongs to the parent.
 void end_session(bool is_forked);
 
 /// A new numpy array that owns its numbers.

@@ -13,7 +13,7 @@ public:
     /// the first line.
     CsvTable(std::string path, std::string header);
 
-    /// Throws CollectiveError (code 4) if this fails; the table then ends with the line before.
+    /// Throws CollectiveError (code 4) if writing fails; the table then ends with the line before.
     void append(const std::string& line);
 
 private:

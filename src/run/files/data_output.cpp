@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// Whether a file has a name that others can remove. Pipes do not.
+/// Whether a file has a name that other programs can remove; pipes have none.
 bool is_named_file(int file) {
     struct stat status{};
     return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink > 0;
@@ -69,7 +69,7 @@ void DataOutput::close() {
 }
 
 WriteProblem write_problem_of_stream(const std::string& path) {
-    // Opening and closing a pipe would be the end of the file for a reader that already waits.
+    // A reader that already waits would take opening and closing a pipe for the end of the file.
     if (struct stat status{}; ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode))
         return ::access(path.c_str(), W_OK) == 0 ? WriteProblem{}
                                                  : write_problem("cannot be written", errno);

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// Also recognises files that do not exist yet, links and other spellings of a path.
+/// Whether paths lead to one file, also for missing files, links and other spellings.
 bool is_same_file(const std::string& a, const std::string& b) {
     std::error_code error;
     if (std::filesystem::equivalent(a, b, error)) return true;
@@ -29,7 +29,7 @@ bool is_special(const std::string& path) {
            !std::filesystem::is_directory(status);
 }
 
-/// Text is written in place, so all hard links of the file would change.
+/// Whether other hard links lead to the file: they would change, as text is written in place.
 bool has_other_names(const std::string& path) {
     std::error_code error;
     return std::filesystem::is_regular_file(path, error) &&
@@ -88,7 +88,7 @@ std::vector<Problem> problems_with(const std::vector<Destination>& destinations,
             continue;
         }
         const std::size_t n_before = problems.size();
-        // Only a folder may be both output and source, because a restart names its own
+        // Only a folder may be both output and source, because a restart reads its own folder
         for (const NamedFile& source : sources)
             if (target.kind != Output::folder && is_same_file(target.path, source.path))
                 refuse(fmt::format("is {} itself", source.name));

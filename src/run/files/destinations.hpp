@@ -24,8 +24,8 @@ enum class Output {
     text,   ///< written in place, so it may be a pipe or a terminal; replaces texts
     report, ///< written as a whole; replaces reports
     table,  ///< a new file of CSV
-    /// Written as a whole; a scene, or discs, which this program has named; replaces scenes and
-    /// discs
+    /// A scene, or a file of discs, whose name this program has
+    /// chosen; written as a whole; replaces scenes and discs
     scene,
     folder,   ///< a folder of a run or of replicas
     of_folder ///< a file of the run's own folder, which the run may replace

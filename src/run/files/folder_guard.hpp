@@ -3,8 +3,8 @@
 //
 // Files are opened by their paths, so the run would otherwise continue in any folder that has taken
 // the name, such as another run's folder, or an empty one under a mount that is gone. The open lock
-// file shows that. Price: two system calls and a reduction for each stretch of steps, in runs with
-// a folder.
+// file shows that its path has changed. Price: two system calls and a reduction for each stretch of
+// steps, in runs with a folder.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace carrom {
 /// The first action of a run, so that no other action writes before the test of the folder.
 class FolderGuard : public StepAction {
 public:
-    /// `locks` are those of rank 0. All arguments must outlive this.
+    /// `locks` are the locks that rank 0 holds. All arguments must outlive this.
     FolderGuard(std::span<const WriteLock> locks, const SceneParameters& scene,
                 const Communicator& ranks)
         : locks_(locks), scene_(scene), ranks_(ranks) {}

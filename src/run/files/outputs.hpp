@@ -38,7 +38,7 @@ std::vector<WriteLock> claim_outputs(const RunOptions& options, const SceneParam
                                      const Communicator& ranks);
 
 /// The problems of the outputs of a run that cannot begin for other reasons, so that all problems
-/// are printed at once. Makes and locks nothing.
+/// are printed together. Makes and locks nothing.
 std::vector<Problem> problems_of_outputs(const RunOptions& options, const SceneParameters& scene,
                                          const std::vector<NamedFile>& sources);
 

@@ -36,7 +36,7 @@ bool is_same_folder(const fs::path& folder, const std::string& own) {
     return !own.empty() && folder == canonical(own);
 }
 
-/// Runs make a folder for checkpoints before they write anything else.
+/// Tests for a folder of checkpoints, which a run makes before it writes anything else.
 bool is_run_folder(const fs::path& folder) {
     std::error_code error;
     if (is_there(folder / lock_of_run)) return true;

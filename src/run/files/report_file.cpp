@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-/// Returns 0 or an errno.
+/// Writes the whole text to an open file. Returns 0 or an errno.
 int write_all(int file, const std::string& text) {
     for (std::size_t begin = 0; begin < text.size();) {
         const ssize_t written = ::write(file, text.data() + begin, text.size() - begin);
@@ -27,20 +27,20 @@ int write_all(int file, const std::string& text) {
     return 0;
 }
 
-/// Without this a crash may undo the rename. Returns 0 or an errno.
+/// Makes a rename permanent: without this call a crash may undo it. Returns 0 or an errno.
 int sync_folder_of(const std::string& path) {
     const std::string folder = std::filesystem::path(path).parent_path().string();
     const int file = ::open(folder.empty() ? "." : folder.c_str(),
                             O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    // Because writing there does not need the right to read
+    // No error without the right to read the folder, because writing files needs no such right
     if (file < 0) return errno == EACCES ? 0 : errno;
     const int error = ::fsync(file) != 0 && errno != EINVAL ? errno : 0;
     ::close(file);
     return error;
 }
 
-/// A new file beside another one, removed unless it is renamed. Its name is new, and links are not
-/// followed. If `number` is negative, `errno` has the reason.
+/// A new file in the folder of `path`, removed unless it is renamed. It never replaces a file or
+/// follows a link. If `number` is negative, `errno` has the reason.
 class FileBeside {
 public:
     explicit FileBeside(const std::string& path) {
@@ -59,7 +59,7 @@ public:
     FileBeside(const FileBeside&) = delete;
     FileBeside& operator=(const FileBeside&) = delete;
 
-    /// These return 0 or an errno.
+    /// This function and the next two return 0 or an errno.
     int write(const std::string& text) const {
         const int error = write_all(number, text);
         return error == 0 && ::fsync(number) != 0 ? errno : error;
@@ -84,7 +84,7 @@ WriteProblem write_problem_of_file(const std::string& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (std::filesystem::is_directory(status)) return {"is a directory; name a file"};
-    // A rename would replace a device or a pipe by a plain file.
+    // Only plain files may be replaced, because a rename would turn a device or a pipe into one.
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         return {"is not a plain file"};
     const FileBeside file(path);
@@ -107,7 +107,7 @@ int append_whole(const std::string& path, const std::string& text, bool is_new) 
     struct stat status{};
     int error = ::fstat(file, &status) != 0 ? errno : S_ISREG(status.st_mode) ? 0 : ESPIPE;
     if (error == 0) error = write_all(file, text);
-    if (error != 0 && S_ISREG(status.st_mode)) // cut back, so that no incomplete line remains
+    if (error != 0 && S_ISREG(status.st_mode)) // shortened, so that no part of a line stays
         static_cast<void>(::ftruncate(file, status.st_size));
     if (::close(file) != 0 && error == 0) error = errno;
     return error;

@@ -47,8 +47,8 @@ bool is_there(const std::string& path) {
     return fs::symlink_status(path, error).type() != fs::file_type::not_found;
 }
 
-/// Whether a recording has no steps after 0, so that the next run would record the same. False if
-/// it cannot be read.
+/// Whether a recording has no steps after 0, so that a new run would record the same contents.
+/// False if the file cannot be read.
 bool is_of_start(const std::string& path) {
     try {
         const FileSummary summary = FrameFile(path).summary();
@@ -91,8 +91,8 @@ bool is_written_by_run(std::string_view folder, const fs::path& path) {
     return is_segment(path);
 }
 
-/// The first entry of a folder for which `is_wanted` holds; empty if there is none. An
-/// error of listing is put in `error`, unless there is no such folder.
+/// The first entry of a folder for which `is_wanted` holds; empty if there is none. If the folder
+/// exists but cannot be listed, the reason is put in `error`.
 template <class Wanted>
 std::string find_entry(const std::string& folder, std::error_code& error, const Wanted& is_wanted) {
     fs::directory_iterator entry(folder, error);
@@ -102,12 +102,12 @@ std::string find_entry(const std::string& folder, std::error_code& error, const 
     return {};
 }
 
-/// The settings that a copy of the scene lists in its first lines: those of `--set`, and the paths
-/// of files, because the copy is in another folder.
+/// The settings that the first lines of a scene's copy list: those of `--set`, and the paths of
+/// files, because the copy is in another folder.
 std::vector<std::string> overrides_for_copy(const SceneParameters& scene) {
     std::vector<std::string> overrides = scene.overrides;
     std::erase_if(overrides,
-                  // frozen discs are found again from the scene
+                  // not listed, because the scene determines the frozen discs again
                   [](const std::string& one) { return is_of_frozen(one); });
     if (!scene.discs_file.empty())
         overrides.push_back("discs.file=" + fs::absolute(discs_path(scene)).string());
@@ -164,8 +164,8 @@ std::string recorded_beyond_start(const std::string& folder) {
         if (error) return name;
         return found.empty() ? found : fmt::format("{}/{}", name, found);
     };
-    // The joining file is made before the first segment. So if there are only segments, the file
-    // was lost.
+    // The file that joins the segments is made before the first segment. So if there are only
+    // segments, the joining file was lost.
     for (const char* name : {"trajectory", "collisions"}) {
         if (is_there(in(folder, name + std::string(".h5")))) continue;
         if (std::string found = found_in(name, is_segment); !found.empty()) return found;

@@ -23,16 +23,16 @@ bool is_subfolder_of_run(std::string_view name);
 /// The name of the folder of replica `k`.
 std::string name_of_replica(std::int64_t k);
 
-/// The files of a run that are directly in the folder.
+/// The names of the run's files that are directly in the folder.
 std::vector<std::string> files_of_run(const std::string& folder);
 std::string report_of_run(const std::string& folder);
 std::string checkpoints_of_run(const std::string& folder);
 
-/// The name of any file there that a run has written; empty if there is none.
+/// The name of a file in the folder that a run has written; empty if there is none.
 std::string trace_of_run(const std::string& folder);
 
-/// The name of a file there that a run has written after step 0; empty if there is none. A file
-/// that cannot be read counts as one.
+/// The name of a file in the folder with data of steps after 0; empty if there is none. A file that
+/// cannot be read counts as such a file.
 std::string recorded_beyond_start(const std::string& folder);
 
 /// Describes a file of another program that a table of the scene would replace; empty if there is
@@ -45,7 +45,7 @@ std::string problem_with_copy(const SceneParameters& scene);
 /// The path of the copy of the scene; empty if there is none.
 std::string scene_copy_of(const std::string& folder);
 
-/// The settings on top of the scene's text in a copy; empty for other files.
+/// The overrides listed in a copy of a scene, on top of its text; empty for other files.
 std::vector<std::string> overrides_of_copy(const std::string& path);
 
 /// Describes the difference between the folder's run and the scene; empty if there is

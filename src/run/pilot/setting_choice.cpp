@@ -18,8 +18,8 @@ constexpr double approach = 10; ///< collisions of a disc before the measurement
 constexpr double certainty = 2; ///< standard errors that are added to a measured error
 constexpr double most_collisions = 4e6; ///< number of pair collisions in a trial
 constexpr double least_accuracy = 4 * certainty /
-                                  2000; ///< four times the error that 4e6 collisions resolve
-/// Collisions of a disc in a trial, at least, because errors in dense gases show late
+                                  2000; ///< sqrt(4e6): the most that a trial resolves
+/// The least number of collisions of a disc in a trial, because errors in dense gases appear late
 constexpr double per_disc = 100;
 constexpr double fewest_collisions = 2e4; ///< pair collisions; shorter trials cannot be timed ...
 constexpr double long_enough =
@@ -28,11 +28,11 @@ constexpr double long_enough_steps = 1e3;
 constexpr double long_trial =
     0.02; ///< seconds after which a setting may be dropped before its trial ends ...
 constexpr double timed_enough =
-    0.2; ///< ... and after which it may be called slow, because the beginning takes time, too
+    0.2; ///< ... and after which it may count as slow, because starting takes time, too
 constexpr double steady =
     1.2; ///< overlaps are not steady if they grow by more than this between stretches
 constexpr std::array<int, 5> stretches = {1, 1, 2, 4,
-                                          /// Lengths of the stretches of a trial, in sixteenths
+                                          /// The stretches, in sixteenths of a trial
                                           8};
 constexpr std::int64_t most_micro_steps = 1 << 20;
 
@@ -51,8 +51,8 @@ std::string shares_text(const TrialError& error) {
                        100 * error.frequency, 100 * error.pressure, 100 * error.error);
 }
 
-/// The steps of a sixteenth of a trial. Its last half must be long enough to show an
-/// error of `accuracy`, and the whole long enough to be timed.
+/// The number of steps in a sixteenth of a trial. The trial's last half must be long enough to show
+/// an error of `accuracy`, and the whole trial long enough to be timed.
 std::int64_t sixteenth_of_trial(double n_discs, double pairs_per_step, double accuracy) {
     const double to_be_timed = std::min(fewest_collisions / pairs_per_step,
                                         std::max(long_enough / n_discs, long_enough_steps));
@@ -70,7 +70,7 @@ struct Pilot {
     const Tuning& tuning;
 };
 
-/// Runs a trial's next stretch from the state `at`, which advances to the stretch's end.
+/// Runs a trial's next stretch from the discs in `at`, which become those at the stretch's end.
 Trial run_stretch(const Pilot& pilot, const RunSetting& setting, std::size_t stretch,
                   TrialStart& at) {
     TrialLength length;
@@ -92,8 +92,8 @@ std::vector<Trial> run_event_driven(const Pilot& pilot) {
 /// The results of trials of a setting so far.
 struct Experience {
     TrialError error;                          ///< error in its last stretch
-    double seconds = 0, reference_seconds = 0; ///< time so far, and that of the event-driven method
-    /// Whether the trial was made to its end; false if its error was too large before
+    double seconds = 0, reference_seconds = 0; ///< time so far in the trial and in the exact run
+    /// Whether the trial ran to its end; false if it was stopped because of its error
     bool is_whole = false;
     bool grows = false; ///< whether overlaps keep growing, so that errors grow, too
 };
@@ -113,7 +113,7 @@ Experience try_setting(const Pilot& pilot, const RunSetting& setting,
     Trial before;
     for (std::size_t k = 0; k < stretches.size(); ++k) {
         const Trial trial = run_stretch(pilot, setting, k, at);
-        found.seconds += trial.wall_seconds; // all ranks have the same times of a trial
+        found.seconds += trial.wall_seconds; // the same number on all ranks, so all decide alike
         found.reference_seconds += exact[k].wall_seconds;
         found.error = error_of(trial, exact[k]);
         found.grows = k > 0 && are_growing(before, trial);
@@ -132,7 +132,7 @@ Choice choose(const Pilot& pilot, double accuracy) {
     const std::vector<Trial> exact = run_event_driven(pilot);
     double steps = 0;
     for (const Trial& trial : exact) steps += static_cast<double>(trial.steps);
-    bool was_slower = false; // a number of micro-steps may be slower than twice that number
+    bool was_slower = false; // wait for a second slow K, because K may be slower than 2 K
     for (std::int64_t k = 1; k <= most_micro_steps; k *= 2) {
         const RunSetting setting{Method::time_stepped, k};
         const Experience found = try_setting(pilot, setting, exact, accuracy);
@@ -175,9 +175,9 @@ TrialStart start_of_pilot(const SceneParameters& scene, const std::vector<InputD
 
 double TrialError::largest() const { return std::max(std::fabs(frequency), std::fabs(pressure)); }
 
-/// The statistical error is that of the number of collisions, because pressures fluctuate at most
-/// as much. A count of n has an error of at most sqrt(n), because collisions of hard discs are more
-/// regular than chance.
+/// The statistical error follows from the number of collisions, because pressures fluctuate at most
+/// as much. A number n of collisions has an error of at most sqrt(n), because collisions of hard
+/// discs are more regular than independent events.
 TrialError error_of(const Trial& trial, const Trial& exact) {
     const auto pairs = [](const Trial& t) {
         return static_cast<double>(std::max<std::uint64_t>(1, t.totals.pair_collisions));

@@ -2,11 +2,11 @@
 // `time.accuracy = x` chooses the fastest setting whose collision rate and pressure are within a
 // share x of the exact ones.
 //
-// A pilot brings the scene's discs to equilibrium, runs them under the event-driven method, and
-// then in the time-stepped method with K = 1, 2, 4, ... micro-steps, until a K is accurate enough,
-// or two in succession are as slow as the event-driven method. Cost grows with K, so the first
-// accurate one is the fastest. It must be accurate after 100 collisions of a disc and stay so,
-// which is not certain in dense gases. Single precision and the naive formula save almost no time
+// A pilot brings the scene's discs to equilibrium and runs them by the event-driven method. Then it
+// tries the time-stepped method with K = 1, 2, 4, ... micro-steps, until a K is accurate enough, or
+// two in succession are as slow as the event-driven method. Cost grows with K, so the first K that
+// is accurate is the fastest one. It has to be accurate after 100 collisions of a disc; in dense
+// gases errors may grow later. Single precision and the naive formula save almost no time
 // (docs/understanding/accuracy.md).
 #pragma once
 

@@ -15,7 +15,7 @@ namespace carrom {
 namespace {
 
 constexpr std::int64_t unlimited_steps = std::int64_t{1} << 40;
-/// The most steps until discs must have collided
+/// Throws if discs have not collided often enough after this number of steps.
 constexpr std::int64_t longest_approach = 1 << 20;
 
 /// CPU time of all threads of this process, so other programs on the machine do not count.
@@ -61,7 +61,7 @@ TrialStart bring_to_equilibrium(const SceneParameters& scene, std::vector<InputD
     double done = 0, before = 0;
     std::int64_t from = 0;
     for (std::int64_t step = 1; done < wanted;
-         step *= 2) { // the last stretch is at least half of all steps
+         step *= 2) { // doubles, so that the last stretch is half of all steps
         if (step > longest_approach)
             throw InputError(
                 {{scene.name, 0,

@@ -37,8 +37,8 @@ struct TrialStart {
     double frequency = 0; ///< collisions with other discs per disc and step
 };
 
-/// Runs `discs` under the event-driven method until discs have had `collisions_per_disc` with
-/// others, on average. Throws InputError if discs overlap or hardly collide. **Collective.**
+/// Runs `discs` by the event-driven method until a disc has had `collisions_per_disc` with others
+/// on average. Throws InputError if discs overlap or hardly collide. **Collective.**
 TrialStart bring_to_equilibrium(const SceneParameters& scene, std::vector<InputDisc> discs,
                                 double collisions_per_disc, const Communicator& communicator,
                                 const Tuning& tuning);
@@ -48,7 +48,7 @@ struct Trial {
     std::int64_t steps = 0;
     Averages averages;
     Totals totals;                         ///< totals at the trial's end
-    double overlapping_pairs_per_disc = 0; ///< overlaps of a disc at once, averaged over samples
+    double overlapping_pairs_per_disc = 0; ///< simultaneous overlaps of a disc, mean over samples
     double deepest_overlap = 0;            ///< deepest overlap of all samples, in diameters
     double core_seconds = 0;               ///< time of stepping, summed over all ranks and threads
     double wall_seconds = 0;               ///< time of stepping, on the slowest rank
@@ -65,7 +65,7 @@ struct TrialLength {
     int n_samples = 16;          ///< number of samples of overlaps
 };
 
-/// **Collective.**
+/// Runs one trial from `start` and measures its collisions, overlaps and time. **Collective.**
 Trial run_trial(const SceneParameters& scene, const RunSetting& setting, const TrialStart& start,
                 const TrialLength& length, const Communicator& communicator, const Tuning& tuning);
 

@@ -21,8 +21,8 @@ namespace carrom {
 
 namespace {
 
-/// Warns of probably wrong units. Scenes of the course program have such speeds, so they get no
-/// warning. **Collective.**
+/// Warns of speeds that suggest wrong units. Scenes of the course program get no warning, because
+/// such speeds are normal there. **Collective.**
 void warn_of_units(const RunOptions& options, const SceneParameters& scene,
                    const std::vector<InputDisc>& discs, const Communicator& ranks) {
     if (scene.lines_before_discs > 0) return;
@@ -35,8 +35,8 @@ void warn_of_units(const RunOptions& options, const SceneParameters& scene,
     if (!warning.empty()) options.messages.warn("{}: warning: {}\n", scene.name, warning);
 }
 
-/// Warns of closed regions after random insertion, because nobody sees where it puts discs. Listed
-/// discs are where their author wants them. **Collective.**
+/// Warns of closed regions in which random insertion may have put discs unnoticed. Listed discs are
+/// where their author wants them, so they give no warning. **Collective.**
 void warn_of_closed_regions(const RunOptions& options, const SceneParameters& scene,
                             const std::vector<InputDisc>& discs, const Communicator& ranks) {
     if (scene.generator != Generator::random) return;
@@ -63,10 +63,10 @@ void claim(StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
         if (!loaded.start.stored) check_memory(loaded.scene, ranks);
         loaded.locks = claim_outputs(options, loaded.scene, files_read_for(options, loaded.scene),
                                      outputs_named_by(options), ranks);
-        // The last ranks of a killed run may have stored more before they ended.
+        // A killed run may have stored a newer checkpoint between the first reading and the lock.
         if (has_other_checkpoints(plan.restart, ranks)) {
             options.messages.note("another checkpoint has come meanwhile\n");
-            loaded.start.stored.reset(); // because the memory of the stored state is needed
+            loaded.start.stored.reset(); // frees the memory of the old state for the new one
             go_on(plan, loaded, ranks);
         }
         if (plan.restart.goes_on() && !loaded.start.stored)
@@ -106,7 +106,7 @@ Loaded carry_out(StartPlan plan, const Communicator& ranks) {
     loaded.scene = std::move(plan.scene);
     go_on(plan, loaded, ranks);
     if (plan.restart.goes_on()) {
-        std::vector<Problem> missing; // ignored, because scenes of the library need no folder
+        std::vector<Problem> missing; // a run that continues and writes files needs a folder
         check_folder(loaded.scene, missing);
         if (!missing.empty()) throw InputError(missing);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Restarts from a checkpoint. A plan says where to search for checkpoints, and which files exist.
-// It is made only from options and the names of files. Another function reads the newest of these
+// Restarts from a checkpoint. The plan contains where to search for checkpoints, and which files
+// exist. It uses only options and the names of files. Another function reads the newest of these
 // files that is undamaged and belongs to the scene's run.
 #pragma once
 

@@ -26,15 +26,15 @@ struct RunOptions {
     int digits = round_trip_digits;
     std::string output; ///< path for the lines of text; empty for standard output
     std::string report; ///< path of a report; empty for none
-    std::string folder; ///< set on the command line; also among the overrides
+    std::string folder; ///< output folder of the command line, which is also among the overrides
     bool quiet = false;
-    bool gpu = false;   ///< set on the command line; also among the overrides
+    bool gpu = false;   ///< GPU flag of the command line, which is also among the overrides
     bool check = false; ///< check the invariants at every step
 
     std::optional<int> threads;
-    std::optional<std::int64_t> steps; ///< set on the command line; also among the overrides
-    std::optional<double> accuracy;    ///< set on the command line; also among the overrides
-    Tuning tuning; ///< all settings but the number of threads, which depends on the machine
+    std::optional<std::int64_t> steps; ///< steps of the command line, also among the overrides
+    std::optional<double> accuracy;    ///< accuracy of the command line, also among the overrides
+    Tuning tuning; ///< all settings except the number of threads, which is the machine's
     Messages messages;
 };
 

@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// Discs have any distribution over the ranks.
+/// Each rank holds some of the discs, in any distribution.
 struct RunStart {
     std::vector<InputDisc> discs{};      ///< initial discs of a run from step 0
     std::optional<StoredState> stored{}; ///< the state from which a restart continues

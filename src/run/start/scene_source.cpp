@@ -39,8 +39,8 @@ template <class Read> Problems problems_of(const Read& read) {
     return {};
 }
 
-/// Whether discs come from `discs.from`. Together with a file or a list of discs it is a problem of
-/// the scene, and no discs are read, because it is unknown which ones are meant.
+/// Whether discs come from `discs.from`. A scene that also has a file or a list of discs is an
+/// error; then no discs are read, because it is unknown which ones are meant.
 bool takes_discs_from(const SceneParameters& scene) {
     return !scene.discs_from.empty() && scene.discs_file.empty() && scene.listed_discs.empty();
 }
@@ -48,7 +48,7 @@ bool takes_discs_of_file(const SceneParameters& scene) {
     return !scene.discs_file.empty() && scene.discs_from.empty() && scene.listed_discs.empty();
 }
 
-/// Why the discs of the file cannot be those of a scene of `n_wanted` discs.
+/// The error text for a file whose number of discs is not `n_wanted`.
 std::string other_number(const FileOfDiscs& file, std::uint64_t n_wanted) {
     std::string text = fmt::format("has {} disc{}", file.n_discs, file.n_discs == 1 ? "" : "s");
     if (!file.departed.empty())
@@ -87,7 +87,7 @@ std::string note_on_radius(const SceneParameters& scene, const FromFile& from) {
                        from.radius, remedy);
 }
 
-/// A folder is an easy mistake, so the error names the file that is probably meant. **Collective.**
+/// A folder instead of a file is an easy mistake, so the error names a likely file. **Collective.**
 void refuse_folder(const SceneParameters& scene, const std::string& path,
                    const Communicator& ranks) {
     namespace fs = std::filesystem;
@@ -106,8 +106,8 @@ void refuse_folder(const SceneParameters& scene, const std::string& path,
     });
 }
 
-/// Replaces the lines after the scene's text by the discs of `discs.from`: by all of them on rank
-/// 0, by the discs of their shares on others. **Collective.**
+/// Makes the discs of `discs.from` the lines after the scene's text: on rank 0 all of them, on the
+/// other ranks those of their shares. **Collective.**
 FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<std::istream>& stream,
                                 Problems& of_root, const Communicator& ranks) {
     const std::string path = discs_path(scene);
@@ -156,8 +156,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 /// Returns settings for the columns and the number of discs of the file of discs, the same on every
-/// rank. If the file cannot be opened, another function reports it. Only if its number of discs is
-/// needed, this one reports it. **Collective.**
+/// rank. A file that cannot be opened is reported here only if its number of discs is needed;
+/// otherwise another function reports it. **Collective.**
 std::vector<std::string> settings_of_file(const SceneParameters& scene, Problems& of_root,
                                           const Communicator& ranks) {
     std::string all;

@@ -44,8 +44,8 @@ SceneParameters read_with_files(SceneSource& source, const std::vector<std::stri
 /// Whether the columns of the file of discs could not be read.
 bool are_columns_wrong(const SceneSource& source);
 
-/// Problems in the lines of discs of a scene that has other problems, so that all are printed at
-/// once. The lines follow a header in `stream`, or are in a file of their own. Called on one rank.
+/// Problems in the disc lines of a scene that has other problems, so that all are printed together.
+/// The lines follow a header in `stream`, or are in their own file. Called on one rank.
 std::vector<Problem> disc_line_problems_of(const SceneParameters& scene, std::istream* stream);
 
 } // namespace carrom

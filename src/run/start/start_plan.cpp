@@ -96,7 +96,7 @@ SceneParameters load_scene(const RunOptions& options, const Problems& problems_s
     return scene;
 }
 
-/// Checks a restart without a scene, in which fewer things can be wrong. **Collective.**
+/// Checks a restart without a scene, which needs fewer checks. **Collective.**
 void check_without_scene(const RunOptions& options, const Problems& problems_so_far,
                          const Communicator& ranks) {
     PlaceProblems found;
@@ -114,7 +114,7 @@ RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
     on_root(ranks, options.folder, ExitCode::bad_input, [&] {
         if (find_checkpoints(checkpoints_of_run(options.folder)).empty())
             copy = scene_copy_of(options.folder);
-        // Because the copy does not contain the lines of discs
+        // Only a whole TOML scene is enough, because a copy does not contain lines of discs
         if (!copy.ends_with(".toml")) copy.clear();
         for (const std::string& override : overrides_of_copy(copy)) overrides += override + '\n';
     });

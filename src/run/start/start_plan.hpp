@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plan of how a run begins: its scene, and whether it continues from a checkpoint. It follows
-// from options, the scene's text and the names of files; no disc is read, and nothing is made or
-// locked. load.hpp carries it out.
+// The plan of how a run begins: its scene, and whether it continues from a checkpoint. The plan
+// follows from options, the scene's text and the names of files. Planning reads no disc, and makes
+// and locks nothing. load.hpp carries out the plan.
 //
 // Rank 0 opens files and reads; the other ranks get the bytes, so all ranks find the same scene or
 // the same problems. No output of the run has been written when a problem is printed.
@@ -26,7 +26,7 @@ struct StartPlan {
     RunOptions options;
     /// Scene of the input; if there is none, the checkpoint's scene replaces it
     SceneParameters scene{};
-    SceneSource source{}; ///< the rest of the input behind the scene's text
+    SceneSource source{}; ///< the rest of the input after the scene's text
     RestartPlan restart{};
 
     bool has_scene() const { return !options.input.empty(); }
@@ -49,8 +49,8 @@ SceneParameters load_scene_alone(const RunOptions& options, const std::vector<Pr
 /// Adds the problem if a scene that writes files has no folder to write to.
 void check_folder(const SceneParameters& scene, std::vector<Problem>& problems);
 
-/// The files that the options name as outputs. They are checked, so that a run does not end with a
-/// file that cannot be written, and does not empty its own input.
+/// The files that the options name as outputs. They are checked before the run, so that it can
+/// write them at its end, and does not empty its own input.
 std::vector<Destination> outputs_named_by(const RunOptions& options);
 /// The files that the run reads, which must not be outputs.
 std::vector<NamedFile> files_read_for(const RunOptions& options, const SceneParameters& scene);

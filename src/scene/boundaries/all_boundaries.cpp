@@ -23,7 +23,7 @@ std::string_view word_of(BoundaryKind kind) {
     return boundary_words[static_cast<std::size_t>(kind)];
 }
 
-/// Static, because keys refer to this text.
+/// The text is static, because keys contain views of it.
 const std::string& help_of_kinds() {
     static const std::string text = [] {
         std::string all;

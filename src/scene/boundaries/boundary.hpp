@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The declaration of a kind of side of the box, in one place.
 //
-// Each kind is declared by one file of this folder: its keys, rules, checks, line in the summary
-// and allowance in the self-check. The reader of scenes, the pages, reports and the self-check loop
-// over `all_boundaries`, and name no kind. How discs meet a side is physics, and stands in
-// dynamics/boundaries.hpp for both methods.
+// Each file of this folder declares one kind: its keys, rules, checks, line in the summary and
+// allowance in the self-check. The reader of scenes, the pages, reports and the self-check loop
+// over `all_boundaries`, so they contain the name of no kind. The physics of a bounce is in
+// dynamics/boundaries.hpp, for both methods.
 //
 // To add a kind: write a file in this folder, add its name to the list in src/scene/CMakeLists.txt,
 // add a value and a word to dynamics/effects.hpp, and add its physics to `Boundaries::rebound`.
@@ -22,22 +22,22 @@ namespace carrom {
 struct BoundaryDeclaration {
     BoundaryKind kind;
     std::string_view help; ///< description of a side of this kind, for the page of keys
-    /// Whether discs bounce off it, so that `restitution` applies.
+    /// Whether discs bounce off the side, so that `restitution` applies to it.
     bool has_restitution = false;
     // Abilities that other features require of a side. A kind cannot be combined with a feature if
     // it does not declare the ability.
     bool is_at_rest = true;                         ///< its line never moves
-    bool lets_discs_rest = false;                   ///< see EffectDeclaration
+    bool lets_discs_rest = false;                   ///< see EffectDeclaration::lets_discs_rest
     bool takes_growing_discs = false;               ///< growing discs may touch it
-    bool (*runs_on_gpu)(const Boundary&) = nullptr; ///< as EffectDeclaration::runs_on_gpu
+    bool (*runs_on_gpu)(const Boundary&) = nullptr; ///< see EffectDeclaration::runs_on_gpu
     /// Keys of one side, such as box.left.speed.
     std::vector<Key> (*keys_of_side)(std::size_t side) = nullptr;
     /// Tables and keys that all sides of this kind have in common.
     std::vector<Table> tables = {};
     std::vector<Key> keys = {};
     std::vector<Rule> rules = {};
-    /// Checks that need several values: of times, and of values that depend on a valid box and
-    /// valid discs.
+    /// Checks of several values together. `check_times` checks times; `check_room` runs only with a
+    /// valid box and valid discs.
     void (*check_times)(const SceneDraft&) = nullptr;
     void (*check_room)(const SceneDraft&) = nullptr;
     /// The text for the side of that name in the summary's line about effects.
@@ -54,7 +54,7 @@ std::vector<Key> keys_of_boundaries();
 /// walls.
 std::string summary_of_boundaries(const Effects& effects);
 CheckAllowance allowance_of_boundaries(const Effects& effects);
-/// Whether all sides have the abilities that growing discs need: see BoundaryDeclaration.
+/// Whether growing discs can touch every side: see BoundaryDeclaration.
 bool do_sides_take_growing_discs(const Effects& effects);
 bool are_walls_at_rest(const Effects& effects);
 bool do_sides_let_discs_rest(const Effects& effects);

@@ -8,8 +8,8 @@ namespace carrom {
 
 namespace {
 
-/// The left and bottom walls may only move in, because outwards they would leave the box, which
-/// begins at 0.
+/// The left and bottom walls may only move inwards, because the box begins at 0 and places outside
+/// of it are invalid.
 Range wall_speeds(std::size_t side) {
     if (side % 2 == 1) return {};
     return {.low = 0, .why = "the wall would leave the box; let the opposite one move out"};

@@ -12,8 +12,8 @@ namespace carrom {
 
 namespace {
 
-/// In units of the time between syncs. Phases at syncs are rounded to 2^-53 of the time since the
-/// start, so shorter periods would be inaccurate.
+/// The shortest period, in units of the time between syncs. Phases at syncs are rounded to 2^-53 of
+/// the time since the start, so they would be inaccurate for shorter periods.
 constexpr double smallest_period = 1e-6;
 
 bool has_oscillating(const SceneParameters& s) {
@@ -54,14 +54,14 @@ std::vector<Rule> rules_of_oscillating_sides() {
     };
 }
 
-/// The acceleration at the wall must change little in a contact time.
+/// Limits the contact time, during which the wall's acceleration must change little.
 void check_contact_at_oscillating_walls(const SceneDraft& draft) {
     for (const Boundary& side : draft.scene.effects.boundaries)
         if (side.kind == BoundaryKind::oscillating)
             limit_contact_time(draft, side.period / 8, "an eighth of a wall's period");
 }
 
-/// Generated discs are between the lines of the walls.
+/// Whether generated discs could overlap the wall, because it starts inside the box.
 bool begins_before_its_line(const SceneParameters& scene, std::size_t side) {
     if (scene.generator == Generator::file) return false;
     const double place = oscillation_at(scene.effects.boundaries[side], 0).place;

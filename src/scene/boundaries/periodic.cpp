@@ -32,7 +32,7 @@ std::vector<Rule> rules_of_periodic_sides() {
     };
 }
 
-/// Also checks sheared sides.
+/// Checks that opposite sides are of the same kind; also for sheared sides.
 void check_periodic_box(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const Periods periods = scene.effects.periods(scene.box);

@@ -7,11 +7,11 @@
 // 101, 20010 (2013)):
 //   rotation   dphi = sqrt(2 D) dW: active Brownian discs
 //   tumbles    at random times phi becomes any angle: run and tumble
-// At a sync, a time t after the last one, first the direction changes by the exact law of that
+// At a sync, a time t after the last one, the direction first changes by the exact law for that
 // time. Then v += (1 - exp(-rate t)) u e. Together with the thermostat this is the exact solution
-// for a constant force. So the only error is that directions are constant between syncs. A free
-// disc diffuses too fast by the share (D t)^2 / 12 of its active part, and (rate t)^2 / 12 of the
-// other part.
+// for a constant force. So the only error is that directions are constant between syncs. For a free
+// disc it enlarges the active part of diffusion by the share (D t)^2 / 12, and the other part by
+// (rate t)^2 / 12.
 //
 // Directions turn neither in collisions nor with the spins of rough discs.
 #include <cmath>
@@ -69,8 +69,8 @@ private:
     }
 
     std::uint64_t seed_;
-    double speed_, momentum_; ///< gain at a sync; one of the two is 0
-    double spread_;           ///< root mean square of the turns between syncs
+    double speed_, momentum_; ///< gain of a disc at a sync, as speed or momentum; the other is 0
+    double spread_;           ///< root mean square of the change of angle between syncs
     double kept_;             ///< probability that a disc does not tumble between syncs
 };
 
@@ -132,7 +132,7 @@ std::vector<Rule> rules_of_activity() {
     };
 }
 
-/// Directions that nearly always change between two syncs would not affect the motion.
+/// Reports directions that nearly always change between syncs, and so have no effect.
 void check_times_of_activity(const SceneDraft& draft) {
     constexpr double longest = 4;
     const Activity& activity = draft.scene.effects.activity;

@@ -77,8 +77,8 @@ double usual_speed_of_effects(const SceneParameters& scene) {
     return speed;
 }
 
-/// `kept` has for each effect at syncs the count of its numbers, then the numbers, or is empty
-/// because no effect keeps any.
+/// `kept` contains, for each effect at syncs, the number of its values and then the values. It is
+/// empty if no effect keeps values.
 std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
                                       std::span<const std::int64_t> kept) {
     std::vector<EndNumber> numbers;

@@ -2,21 +2,21 @@
 // Constant pressure: moves of the volume at syncs, as in Monte Carlo at constant N, P and T (W. W.
 // Wood, J. Chem. Phys. 48, 415 (1968)).
 //
-// The box keeps its sides, and all radii are multiplied by one factor s. In units of the discs this
-// is a box that becomes smaller or larger together with the positions in it. Positions in units of
-// the box and the volume V = A / (s^2 <d^2>), with the mean <d^2> of the squared diameters, have
+// The box keeps its edges, and all radii are multiplied by one factor s. In units of the discs, the
+// box and the positions in it become smaller or larger together. The positions in units of the box
+// and the volume V = A / (s^2 <d^2>), with the mean <d^2> of the squared diameters, have
 // the weight
 //     V^N exp(-p V),   p = P <d^2> / kT,   if no two discs overlap.
 // The structure of hard discs does not depend on temperature. So velocities stay as they are, in
 // the unit of the box, and any kT gives the same result.
 //
 // At a sync the closest pair limits how far radii can grow. It is a minimum over all pairs, so all
-// ranks have the same one. With the discs at rest the weight is a function of V alone, and
-// `n_moves` moves of it cost nothing. Each move draws a new volume evenly from a range about the
-// present one, and accepts it with the probability min(1, exp(-p (V' - V)) (V' / V)^N)
-// (Metropolis). A sync keeps V in a cell of a fixed partition, in which lengths differ by 10 %, so
-// that only pairs up to this distance must be known. Partitions of syncs with even and odd counts
-// are half a cell apart. So each sync conserves the distribution exactly, and V can reach any
+// ranks find the same limit. With the discs at rest the weight is a function of V alone, so the
+// `n_moves` moves of a sync take almost no time. Each move draws a new volume V' evenly from a
+// range about the present one, and accepts it with the probability min(1, exp(-p (V' - V)) (V' /
+// V)^N) (Metropolis). During a sync V stays in a cell of a fixed partition, in which lengths differ
+// by 10 %, so that only pairs up to this distance must be known. The partitions of even and odd
+// syncs differ by half a cell. So each sync conserves the distribution exactly, and V can reach any
 // value.
 //
 // Only + - * / and sqrt are used. The logarithm of V' / V is computed by a series, and a random
@@ -118,9 +118,9 @@ private:
         return {low, low * cell_ratio};
     }
 
-    /// The range of moves is a multiple of the volume by which the closest pair limits it, V / (N
-    /// (Z - 1)). It is the same throughout the cell, so that moves in both directions have the same
-    /// probability.
+    /// The largest change of a move, a few times V / (N (Z - 1)): by about this volume the closest
+    /// pair limits moves. It is the same throughout the cell, so that a move and its reverse have
+    /// the same probability.
     double range_in(const Cell& cell) const {
         const double volume = volume_at(cell.high),
                      excess = std::max(pressure_ * volume / n_discs_ - 1, 1 / std::sqrt(n_discs_));

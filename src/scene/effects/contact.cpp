@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What two touching discs do to each other (dynamics/law.hpp).
+// The collision of two discs (dynamics/law.hpp).
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -32,9 +32,9 @@ const Need rows_of_lossy_discs{
         return are_pairs_lossy(s.effects) && !s.effects.contact.rows.empty();
     }};
 constexpr Range shares{0, 1};
-constexpr std::size_t most_rows = 100; ///< a table has the square of this number
+constexpr std::size_t most_rows = 100; ///< a table has the square of so many entries
 
-/// Numbers of a row of `effects.contact.pairs`.
+/// The indices of the numbers in a row of `effects.contact.pairs`.
 namespace pair_row {
 constexpr std::size_t first = 0, second = 1, restitution = 2;
 } // namespace pair_row
@@ -146,8 +146,8 @@ void check_pairs(const SceneDraft& draft) {
     });
 }
 
-/// A disc's last collision is forgotten at a sync, so a contact time must be short compared with
-/// the time between syncs.
+/// Checks that the contact time is short compared with the time between syncs, because a sync
+/// forgets a disc's last collision.
 void check_contact_time(const SceneDraft& draft) {
     limit_contact_time(draft, steps_between_syncs(draft.scene) / 4,
                        "a quarter of the time between syncs ('time.sync_every')");
@@ -173,8 +173,8 @@ std::string summary_of_contacts(const Effects& effects) {
     return {};
 }
 
-/// Whether collisions take energy, that of spins included. They do not if surfaces are elastic and
-/// either do not rub, or stick without losing energy.
+/// Whether collisions take energy, rotational energy included. Elastic surfaces take none if they
+/// are smooth, or stick without a loss.
 bool take_energy(const ContactEffect& contact) {
     if (contact.kind == ContactKind::restitution) return true;
     if (contact.kind != ContactKind::rough) return false;

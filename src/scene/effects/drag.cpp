@@ -32,7 +32,7 @@ std::vector<Rule> rules_of_drag() {
     };
 }
 
-/// A long time between syncs would leave almost nothing of the velocities.
+/// Limits the time between syncs, because after a long one hardly any velocity would be left.
 void check_times_of_drag(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const double interval = steps_between_syncs(scene);
@@ -56,7 +56,7 @@ EffectDeclaration drag() {
         .check_times = check_times_of_drag,
         .summary =
             [](const Effects& e) { return e.drag != 0 ? fmt::format("drag {:g}", e.drag) : ""; },
-        // If discs are also pulled, the loss depends on the flight and may be 0.
+        // Without a pull; otherwise the loss depends on the flight and may be 0.
         .energy_left =
             [](const Effects& e, double time) {
                 return e.acceleration().is_on() ? 1 : std::exp(-2 * e.drag * time);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The declaration of an effect, in one place.
 //
-// Each file of this folder declares one effect: its tables, keys (with the flag that a key is a
-// seed), rules, checks, line in the summary, allowance in the self-check, energy besides the
-// kinetic one, and action at syncs. The reader of scenes, the pages, reports, restarts, replicas,
-// the self-check and the engines loop over `all_effects`, and contain the name of no effect.
-// Besides the discs' states and columns, a checkpoint contains the values that an effect at syncs
-// keeps.
+// Each file of this folder declares one effect: its tables, keys (and which of them are seeds),
+// rules, checks, line in the summary, allowance in the self-check, energy besides the kinetic one,
+// and action at syncs. The reader of scenes, the pages, reports, restarts, replicas, the self-check
+// and the engines loop over `all_effects`, so they contain the name of no effect. Besides the
+// discs' states and columns, a checkpoint contains the values that an effect keeps from sync to
+// sync.
 //
 // The folder belongs to the scene because keys and rules are functions of SceneParameters. It is
 // above the dynamics, where the templates of the hot paths are, and below the engines. So an effect
-// that acts at syncs has its physics in its own file here. One that acts in collisions or in flight
-// has its physics in src/dynamics and its declaration here.
+// that acts at syncs has its physics in its file here. An effect that acts in collisions or in
+// flight has its physics in src/dynamics, and only its declaration here.
 //
 // To add an effect, write a file in this folder, and add its name to the list in
 // src/scene/CMakeLists.txt.
@@ -36,15 +36,15 @@ namespace carrom {
 /// Changes that the self-check must not report, because an effect causes them.
 struct CheckAllowance {
     bool collisions_take_energy = false;
-    bool walls_give_energy = false; ///< the amount is only known during the run
+    bool walls_give_energy = false; ///< walls do work; the amount is only known during the run
     bool acts_at_syncs = false;     ///< velocities change at syncs; the engine sums up the energy
-    /// Velocities also change immediately before the flights after a sync
+    /// Whether velocities also change immediately before the flights after a sync
     bool acts_before_flights = false;
-    /// During collisions: see EffectDeclaration::work_in_collision
+    /// Whether surfaces do work in collisions: see EffectDeclaration::work_in_collision
     bool surfaces_give_energy = false;
 };
 
-/// A disc as the box sees it. The unit of time is that of the effects that are passed with it.
+/// A disc in the box. Its unit of time is that of the effects which are passed together with it.
 struct ShownDisc {
     double x = 0, y = 0, vx = 0, vy = 0, spin = 0;
     SizeAndMass has;
@@ -57,13 +57,13 @@ struct ShownDisc {
 struct OtherEnergy {
     const char* name;       ///< the energy's name in the report
     const char* words;      ///< text behind its value in the summary
-    double Totals::* value; ///< effects with the same name share it
+    double Totals::* value; ///< where the sum is kept; effects with the same name share it
     double (*of_disc)(const ShownDisc&, const Effects&, const Box&);
     /// For an energy of position: its largest value for a mass of 1, which sets the scale of
     /// rounding.
     double (*largest)(const Effects&, const Box&) = nullptr;
-    /// It turns into kinetic energy only at syncs, where the engine sums up the energy that discs
-    /// gain. So the self-check leaves it out.
+    /// Whether it turns into kinetic energy only at syncs. The engine sums up the energy that discs
+    /// gain there, so the self-check leaves it out.
     bool is_of_syncs = false;
 };
 
@@ -105,17 +105,17 @@ struct EffectDeclaration {
     /// The contents of a file that the scene names, as settings. Checkpoints store these, so that
     /// restarts do not need the file. Called on rank 0; throws InputError.
     std::vector<std::string> (*settings_of_file)(const SceneParameters&) = nullptr;
-    /// Checks that need several values: of times, and of values that depend on a valid box and
-    /// valid discs.
+    /// Checks of several values together. `check_times` checks times; `check_room` runs only with a
+    /// valid box and valid discs.
     void (*check_times)(const SceneDraft&) = nullptr;
     void (*check_room)(const SceneDraft&) = nullptr;
-    /// Its text in the summary's line about effects; empty in a scene without it.
+    /// The effect's text in the summary's line about effects; empty in a scene without the effect.
     std::string (*summary)(const Effects&) = nullptr;
     CheckAllowance (*allowance)(const Effects&) = nullptr;
-    /// Its energy; nothing in a scene whose discs do not have it.
+    /// The effect's energy; nothing in a scene whose discs do not have this energy.
     std::optional<OtherEnergy> (*energy)(const Effects&) = nullptr;
-    // For the self-check, per micro-step: the share of the kinetic energy that is left after a
-    // time.
+    // For the self-check, with the micro-step as the unit of time: the share of the kinetic energy
+    // that is left after a time.
     double (*energy_left)(const Effects&, double time) = nullptr;
     /// The energy that a disc gains along its path.
     double (*work)(const Effects&, const Way&) = nullptr;
@@ -135,8 +135,8 @@ struct EffectDeclaration {
     /// For an effect that exchanges momentum with discs in other ways than through the sides of the
     /// box.
     CommonMotion (*common_motion)(const Effects&, Axis) = nullptr;
-    /// Whether kernels of GPUs contain the effect. If it is not given, the effect is an error with
-    /// machine.gpu.
+    /// Whether kernels of GPUs contain the effect. If the function is missing, the effect cannot be
+    /// combined with machine.gpu.
     bool (*runs_on_gpu)(const Effects&) = nullptr;
     /// Why Z is undefined in a scene with the effect; empty if it is defined.
     std::string (*reason_without_z)(const Effects&) = nullptr;
@@ -148,11 +148,11 @@ const std::vector<EffectDeclaration>& all_effects();
 /// One line for a summary, such as "restitution 0.9 of pairs; drag 0.01"; empty if there
 /// are no effects.
 std::string summary_of(const Effects& effects);
-/// The changes that the self-check must not report with these effects and sides of the box.
+/// The changes that these effects and sides of the box cause, for the self-check.
 CheckAllowance allowance_of(const Effects& effects);
 /// The energies in the order of the effects.
 std::vector<OtherEnergy> other_energies_of(const Effects& effects);
-// These combine all effects: see EffectDeclaration.
+// Combined over all effects: see EffectDeclaration for each of these functions.
 double energy_left_by(const Effects& effects, double time);
 double work_on_way(const Effects& effects, const Way& way);
 double work_in_collision(const Effects& effects, double impulse, double radii);
@@ -172,7 +172,7 @@ void check_energy_jumps(const SceneDraft& draft);
 /// displacements. No other function decides this.
 Drift drift_along(Axis axis, const Effects& effects);
 /// Why kT, P and Z are undefined for this number of discs; empty if they are defined. A single disc
-/// that nothing stops along an axis has no velocity there except the common one.
+/// has only the common velocity along an axis if nothing stops it there.
 std::string reason_without_temperature(const Effects& effects, std::uint64_t n_discs);
 /// The settings from all files of effects. Called on rank 0; throws InputError.
 std::vector<std::string> settings_of_effect_files(const SceneParameters& scene);

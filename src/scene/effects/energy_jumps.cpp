@@ -34,7 +34,7 @@ double temperature_in_the_end(const SceneParameters& scene) {
     return loss > 0 ? std::pow(t.strength / loss, 2.0 / 3) : 0;
 }
 
-/// Warns if a flow, or discs that lose energy, move far from their temperature between two syncs.
+/// Warns if shear or losses change the temperature much between two acts of the thermostat.
 void warn_of_rare_acts(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.effects.thermostat.is_on() || scene.steps == 0) return;
@@ -49,8 +49,8 @@ void warn_of_rare_acts(const SceneDraft& draft) {
     constexpr double most = 4;
     const double density = static_cast<double>(scene.n_discs) / scene.area(),
                  often = 2 * std::sqrt(std::numbers::pi * temperature_in_the_end(scene)) * density *
-                         2 * scene.radius; // for a dilute gas; in dense ones discs collide more
-                                           // often
+                         2 * scene.radius; // for a dilute gas; the rate is higher in dense
+                                           // gases
     const bool changes = scene.effects.are_sheared() || are_pairs_lossy(scene.effects);
     if (changes && often * interval > most)
         scene.warnings.push_back(fmt::format(
@@ -59,8 +59,8 @@ void warn_of_rare_acts(const SceneDraft& draft) {
             often * interval, std::max(1.0, static_cast<double>(scene.micro_steps) / (2 * often))));
 }
 
-/// Samples at syncs alternate between before and after effects act. Samples that are always at the
-/// same time between two syncs do not give the mean over time.
+/// Warns of samples that always have the same delay after a sync, because they do not give the mean
+/// over time. Samples at syncs do: they alternate between before and after the effects act.
 void warn_of_samples_between_syncs(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements || !does_energy_jump(scene.effects)) return;

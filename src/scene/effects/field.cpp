@@ -31,8 +31,8 @@ inline constexpr std::array words_of<FieldKind>{
 namespace {
 
 constexpr std::size_t most_values = std::size_t{1} << 18, most_strengths = 4096;
-/// Values of w t at the strongest curvature: the largest by default, the smallest for a warning,
-/// and the limit beyond which orbits differ completely from the true ones.
+/// Values of w t at the strongest curvature: the largest one by default, the largest one without a
+/// warning, and the limit, beyond which orbits differ completely from the true ones.
 constexpr double usual_turn = 0.05, large_turn = 0.5, largest_turn = 1;
 
 class FieldAtSyncs final : public SyncEffect {
@@ -74,7 +74,7 @@ Need field_kinds(std::string text, FieldKinds kinds) {
             }};
 }
 
-/// Wrong rows are reported elsewhere, and have no values.
+/// Takes the values of rows. Wrong rows are left out, because they are reported elsewhere.
 void take_rows_of_field(FieldValues& values, const Values& rows) {
     values = {};
     for (const Value& row : rows) {
@@ -238,7 +238,7 @@ std::vector<Rule> rules_of_field() {
     };
 }
 
-/// w t at the strongest curvature, for the lightest disc.
+/// The product w t at the strongest curvature, for the lightest disc.
 double turn_between_syncs(const SceneParameters& scene) {
     const ExternalField& field = scene.effects.field;
     double lightest = scene.effects.species.empty() ? 1 : scene.effects.species.front().mass;

@@ -64,9 +64,9 @@ bool does_take_energy(const Effects& e, std::size_t surface) {
            });
 }
 
-/// Whether discs that gravity drives along periodic sides reach a steady flow. For that something
-/// must take the momentum along the sides `low` and `low + 1`, and something the energy. Obstacles
-/// take momentum, because discs collide with them.
+/// Whether discs that gravity drives along periodic sides reach a steady flow. For this, something
+/// must take their momentum along the sides `low` and `low + 1`, and something must take energy.
+/// Obstacles take momentum, because discs collide with them.
 bool are_stopped(const SceneParameters& s, std::size_t low) {
     const Effects& e = s.effects;
     const ThermostatKind kind = e.thermostat.kind;
@@ -132,7 +132,7 @@ std::vector<Rule> rules_of_gravity() {
     };
 }
 
-/// The height above the walls towards which gravity pulls at the start.
+/// A disc's potential energy above the walls towards which gravity pulls at the start.
 double energy_of_height(const ShownDisc& disc, const Effects& effects, const Box& box) {
     const auto height = [](double place, double pull, double length) {
         return pull < 0 ? place : length - place;
@@ -155,8 +155,8 @@ bool sways_too_fast(const SceneParameters& scene) {
     return g.sways() && least_syncs * steps_between_syncs(scene) > g.period;
 }
 
-/// Strong gravity needs more frequent syncs than the default. If even one in each micro-step is not
-/// enough, check_fall reports it.
+/// Gives strong gravity more frequent syncs than the default. If even a sync in each micro-step is
+/// not enough, check_fall reports it.
 void shorten_sync(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const Acceleration& g = scene.effects.gravity;
@@ -187,8 +187,8 @@ void check_period(const SceneDraft& draft) {
                                                std::ceil(least_syncs / period))));
 }
 
-/// The falling frame must stay near the box, because otherwise its coordinates would be coarser
-/// than the box's.
+/// Limits the fall between two syncs. The falling frame must stay near the box, because far away
+/// its coordinates would be coarser than the box's.
 void check_fall(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!draft.knows_syncs()) return;
@@ -218,7 +218,7 @@ std::string summary_of_gravity(const Effects& effects) {
     return text;
 }
 
-/// Surfaces that rub have forces along them that are not known beforehand.
+/// Whether a surface rubs, so that it has forces along itself which are not known beforehand.
 bool do_surfaces_rub(const Effects& effects) {
     for (std::size_t side = 0; side < effects.boundaries.size(); ++side)
         if (does_rub(effects, side)) return true;

@@ -50,7 +50,7 @@ std::vector<Rule> rules_of_growth() {
     };
 }
 
-/// Discs that grow must have room until the last step.
+/// Checks that discs have room until the last step.
 void check_growth(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (scene.effects.growth == 0) return;
@@ -62,7 +62,7 @@ void check_growth(const SceneDraft& draft) {
     const double most = std::min({std::sqrt(densest / scene.packing()),
                                   room(scene.box.x, scene.effects.is_periodic_x()),
                                   room(scene.box.y, scene.effects.is_periodic_y())});
-    // Because missing room at the start is reported elsewhere
+    // Missing room at the start is reported elsewhere
     if (growth <= most || most < 1) return;
     draft.refuse(
         {"effects.growth.rate"},
@@ -88,7 +88,7 @@ EffectDeclaration growth() {
             },
         .allowance =
             [](const Effects& e) { return CheckAllowance{.surfaces_give_energy = e.growth != 0}; },
-        // Distances of surfaces grow at a constant rate.
+        // Surfaces of two discs approach each other at a constant rate, and so do work.
         .work_in_collision = [](const Effects& e, double impulse,
                                 double radii) { return impulse * (e.growth * radii); },
         .usual_speed = [](const SceneParameters& s) { return s.radius * s.effects.growth; }};

@@ -2,13 +2,13 @@
 // Inlets: discs that come in through open sides, as from a gas outside.
 //
 // The gas outside is ideal, with temperature kT and density n. Discs come in at the line where
-// others depart, with the centre a radius outside the side. In a time t and on a length l the mean
-// number of arrivals is n sqrt(kT / (2 pi m)) t l. They are independent, so their number has a
-// Poisson distribution. Their inward velocity has the density v exp(-m v^2 / 2 kT), and their
-// velocity along the side is Maxwell's, as for discs that leave a thermal wall. At the next sync a
-// disc is left out if another one blocks its place of entry. Otherwise it is placed where it has
-// flown to by then, or at its place of entry if something is in its way. Arrival is the reverse of
-// departure, so a gas in equilibrium has the activity n.
+// other discs depart: their centre is then a radius outside the side. In a time t and on a length l
+// the mean number of arrivals is n sqrt(kT / (2 pi m)) t l. Arrivals are independent, so their
+// number has a Poisson distribution. The inward velocity has the density v exp(-m v^2 / 2 kT), and
+// the velocity along the side is Maxwell's, as for discs that leave a thermal wall. At the next
+// sync a disc is left out if another disc blocks its place of entry. Otherwise it is placed where
+// it has flown to by then, or at its place of entry if its path is blocked. Arrival is the reverse
+// of departure, so a gas in equilibrium has the activity n.
 //
 // The discs that come in are those that have departed before. Random numbers depend on the seed,
 // the side and the count of syncs.
@@ -70,7 +70,7 @@ public:
 private:
     void add_arrivals(std::size_t side, std::int64_t n_syncs, std::vector<Arrival>& all) const {
         const Inlet& inlet = sides_[side].inlet;
-        const std::size_t low = side < 2 ? 2 : 0; // the sides at both ends of this one
+        const std::size_t low = side < 2 ? 2 : 0; // the two sides at the ends of this side
         DiscRandom random(seed_, Purpose::inlet, side, static_cast<std::uint64_t>(n_syncs));
         const auto is_wall = [&](std::size_t other) {
             return sides_[other].kind != BoundaryKind::open;
@@ -90,7 +90,7 @@ private:
             all.push_back(one);
         }
     }
-    /// Sets the ids that may come in: all, or those of one row of `discs.species`.
+    /// Sets the ids that may come in: all, or only those of one row of `discs.species`.
     void set_ids(Arrival& one, const Inlet& inlet) const {
         one.end = n_discs_;
         if (inlet.species == 0) return;
@@ -161,8 +161,8 @@ std::vector<Table> tables_of_inlets() {
     return all;
 }
 
-/// Discs come in at syncs. By default there is one in each step, so that every output contains the
-/// discs that have come in until then.
+/// Discs come in at syncs. By default each step has a sync, so that every output contains the discs
+/// that have come in until then.
 void sync_in_each_step_of_inlets(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (has_inlets(scene.effects) && !draft.settings.has("time.sync_every"))

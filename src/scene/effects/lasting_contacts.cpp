@@ -63,7 +63,7 @@ public:
     }
 
 private:
-    /// The discs of this rank in the order of ids, because the order of cells changes.
+    /// The discs of this rank in the order of ids, which stays the same while their cells change.
     static std::vector<HeapDisc> discs_of(const SyncDiscs& at) {
         std::vector<HeapDisc> mine;
         for (std::size_t i = 0; i < at.discs.size(); ++i) {
@@ -171,14 +171,14 @@ double pull_of(const SceneParameters& scene) {
     return std::hypot(scene.effects.gravity.x, scene.effects.gravity.y);
 }
 
-/// The height by which discs at rest fly up between two syncs.
+/// The height to which discs at rest bounce between two syncs.
 double hop_of(const SceneParameters& scene) {
     const double time = steps_between_syncs(scene);
     return pull_of(scene) * time * time / 8;
 }
 
-/// The default time between syncs is so short that discs at rest fly up by at most a hundredth of
-/// the radius.
+/// Shortens the default time between syncs until discs at rest bounce to at most a hundredth of the
+/// radius.
 void shorten_sync_for_hops(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!has_lasting(scene) || draft.settings.has("time.sync_every")) return;
@@ -190,13 +190,13 @@ void shorten_sync_for_hops(const SceneDraft& draft) {
         scene.sync_every /= 2;
 }
 
-/// Returns whether discs at rest stay nearly where they are.
+/// Reports discs at rest that would bounce too high. Returns false if they do.
 bool check_hops(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene);
     if (!(hop_of(scene) > 0.05 * radius)) return true;
-    // If discs fall by half the box between syncs, which is four hops, gravity reports it. It tests
-    // each axis separately, so for an oblique fall the limit is half the box times sqrt(2).
+    // gravity.cpp reports discs that fall by half the box between syncs, which is four times this
+    // height. It tests each axis alone, so an oblique fall may be sqrt(2) times as long.
     if (hop_of(scene) > std::numbers::sqrt2 / 8 * scene.box.longest()) return false;
     const double most = std::floor(std::sqrt(0.05 * radius / hop_of(scene)) *
                                    static_cast<double>(scene.sync_every));
@@ -209,8 +209,8 @@ bool check_hops(const SceneDraft& draft) {
     return false;
 }
 
-/// Warns of a speed that makes the run slow. If it is too small, discs bounce; if it is too large,
-/// each disc searches partners far away.
+/// Warns of a speed that makes the run slow. Discs bounce if it is too small, and search partners
+/// far away if it is too large.
 void check_speed(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene), time = steps_between_syncs(scene);
@@ -237,7 +237,7 @@ void check_speed(const SceneDraft& draft) {
             speed, fallen, remedy));
 }
 
-/// Reports quantities with forces in each row, because lasting contacts have forces only at syncs.
+/// Reports quantities that need forces at every step, because lasting contacts act only at syncs.
 void check_samples_of_forces(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements) return;
@@ -254,8 +254,8 @@ void check_samples_of_forces(const SceneDraft& draft) {
     }
 }
 
-/// Warns of very different masses, because sweeps over contacts transfer the weight of a heavy disc
-/// only slowly through light ones.
+/// Warns of very different masses, because the iteration over contacts transfers the weight of a
+/// heavy disc only slowly through light discs.
 void warn_of_unlike_masses(const SceneDraft& draft) {
     constexpr double most = 100;
     SceneParameters& scene = draft.scene;

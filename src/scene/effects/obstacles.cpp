@@ -19,8 +19,8 @@ namespace {
 
 const Need some_obstacles{no_obstacles, has_fixed_bodies};
 
-/// The largest coordinate and radius of an arc, relative to the box's longer edge. Centres farther
-/// away would lose digits.
+/// The largest coordinates and radii of arcs, in units of the box's longer edge. Larger ones would
+/// lose digits.
 constexpr double farthest_centre = 100;
 
 /// Rows [x, y, radius] of circles, or [x, y, radius, from, to].

@@ -71,7 +71,7 @@ std::vector<Key> keys_of_rubbing() {
     return all;
 }
 
-/// The velocity of a surface along itself must be a valid speed of discs.
+/// Checks that the velocity of a surface along itself is a valid speed of discs.
 void check_room_of_rubbing(const SceneDraft& draft) {
     const Effects& effects = draft.scene.effects;
     const auto hold = [&draft](const std::string& table, const Surface& surface) {
@@ -120,7 +120,7 @@ CheckAllowance allowance_of_rubbing(const Effects& effects) {
     return allowance;
 }
 
-/// The sides parallel to an axis act along it, and the sides at its ends do not.
+/// Momentum along an axis changes at sides that are parallel to it, not at those at its ends.
 CommonMotion common_motion_by_surfaces(const Effects& effects, Axis axis) {
     const std::size_t low = axis == Axis::x ? 2 : 0;
     CommonMotion motion;

@@ -19,7 +19,7 @@ namespace carrom {
 
 namespace {
 
-/// Indices of the numbers of a row.
+/// The indices of the numbers in a row.
 constexpr std::size_t of_species = 0, of_restitution = 1, of_tangential = 2;
 
 std::string table_of_surface(std::size_t surface) {
@@ -72,7 +72,7 @@ std::vector<Key> keys_of_surface_contacts() {
     return all;
 }
 
-/// Without what the friction of a row has no meaning; empty if it has one.
+/// The missing condition without which a row's friction has no meaning; empty if it has one.
 std::string why_smooth(const SceneParameters& scene, std::size_t surface, const Numbers& row) {
     const double common = common_numbers(scene.effects, surface).surface.tangential_restitution;
     return is_given(row, of_tangential) || common != -1 ? "" : "a tangential_restitution above -1";
@@ -108,7 +108,7 @@ std::string summary_of_surface_contacts(const Effects& effects) {
     return all;
 }
 
-/// Whether `holds(numbers, surface)` for any row of any surface.
+/// Whether `holds(numbers, surface)` is true for any row of any surface.
 template <class What> bool is_any_row(const Effects& effects, const What& holds) {
     for (std::size_t k = 0; k < SurfaceContacts::n_surfaces; ++k)
         for (const SurfaceContact& row : effects.surface_contacts.rows[k])

@@ -6,11 +6,11 @@
 //
 // All radii are numbered in ascending order, and each disc holds one number. In a round
 //   1. pairs of numbers are proposed, by random words that depend on seed, sync and round alone.
-//      Each number is in one pair at most. A disc in a pair may have the larger radius of the two
-//      afterwards: call that its room. A disc without a proposal has its radius as its room.
-//   2. A pair is accepted if both discs fit: each is as far from every neighbour, except from each
-//      other, as the room of both together, and from walls and fixed bodies as its room.
-//   3. The discs of accepted pairs exchange their numbers, all at once.
+//      Each number is in one pair at most. A disc's "room" is the radius that it may have
+//      afterwards: the larger radius of its pair, or its own radius if it is in no pair.
+//   2. A pair is accepted if both discs fit: their distance to every other neighbour is at least
+//      the sum of the two rooms, and their distance to walls and fixed bodies at least their room.
+//   3. The discs of all accepted pairs exchange their numbers at the same time.
 // No overlap can follow, because no radius exceeds its disc's room. Detailed balance holds: the
 // rooms are the same before and after, whichever pairs are accepted, because a pair of numbers has
 // the same two discs. So the same proposals accept the same pairs again, which restores the first
@@ -46,15 +46,15 @@ namespace {
 /// The number of a radius in ascending order.
 using SizeNumber = std::uint32_t;
 
-/// The proposals of a round: in the order of radii, pairs at a distance that is the same throughout
-/// the round, and any power of two. So near radii, which exchange easily, and far ones, which
-/// change more, are proposed equally often on each scale.
+/// The proposals of a round. Partners in the ascending order of radii are at one distance during
+/// the round, which is a random power of two. So pairs of near radii, which exchange easily, and
+/// pairs of far radii, which change more, are proposed equally often on each scale.
 struct Proposals {
     std::uint64_t seed, sync, round;
     SizeNumber n_sizes = 0, distance = 1, shift = 0;
 
-    /// One number in four is in a pair. With more pairs, more neighbours would have a large room,
-    /// so that fewer pairs fit.
+    /// The probability that a possible pair is proposed. With more pairs, more neighbours would
+    /// have a large room, so that fewer pairs would fit.
     static constexpr double share = 0.25;
 
     Proposals(std::uint64_t seed_of_all, std::uint64_t n_syncs, std::uint64_t number, SizeNumber n)
@@ -76,7 +76,7 @@ struct Proposals {
     }
 };
 
-/// Others within reach of each own disc.
+/// For each own disc, the other discs within the range of its search.
 class Neighbours {
 public:
     struct One {
@@ -109,10 +109,10 @@ private:
     std::vector<One> all_;
 };
 
-/// Rooms and distances of discs that touch must not differ by rounding.
+/// A factor on rooms, so that rounding does not decide about discs that touch.
 constexpr double with_rounding = 1 + 0x1p-40;
 
-/// Walls and fixed bodies at rest.
+/// Walls and fixed bodies at rest, with the test that a disc has room beside them.
 class BodiesAtRest {
 public:
     explicit BodiesAtRest(const SceneParameters& scene)
@@ -184,7 +184,7 @@ private:
                                              static_cast<double>(swaps_.until_step);
     }
 
-    /// Whether each disc has a number that no other one has.
+    /// Whether `kept` gives each disc a number of its own.
     bool are_numbers(std::span<const std::int64_t> kept) const {
         if (kept.size() != n_discs_ + 1) return false;
         std::vector<bool> is_held(n_discs_);
@@ -214,8 +214,8 @@ private:
         });
     }
 
-    /// The lower numbers of the pairs of own discs that fit; a number occurs once for each own
-    /// disc.
+    /// The lower number of the pair, for each own disc that fits. A number occurs twice if both
+    /// discs of its pair do.
     std::vector<SizeNumber> fitting(const Proposals& proposals, const SyncDiscs& at,
                                     const Neighbours& neighbours) const {
         std::vector<SizeNumber> all;
@@ -244,7 +244,7 @@ private:
         if (!all.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
         std::ranges::sort(all);
         for (std::size_t k = 1; k < all.size(); ++k) {
-            if (all[k] != all[k - 1]) continue; // a pair fits if both of its discs fit
+            if (all[k] != all[k - 1]) continue; // a number occurs twice if both discs fit
             const SizeNumber low = all[k], high = low + proposals.distance;
             const DiscId smaller = holders_[low], larger = holders_[high];
             give(smaller, high);
@@ -318,8 +318,8 @@ std::vector<Rule> rules_of_swap() {
     };
 }
 
-/// Numbers of radii have 32 bits, and each rank has all of them. The scene also gets the column of
-/// radii with which discs begin.
+/// Lists all radii, with which discs begin, on each rank. Limits their number, because numbers of
+/// radii have 32 bits.
 void check_and_list_radii(const SceneDraft& draft) {
     constexpr std::uint64_t most = std::uint64_t{1} << 31;
     if (!swaps(draft.scene)) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Times of effects that change little from sync to sync, so by default they act in each step.
+// Sync times for effects that change little between syncs: by default they act in each step.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace carrom {
 
-/// Makes a sync follow each step, unless the scene sets the time between syncs.
+/// Makes each step end with a sync, unless the scene sets the time between syncs.
 inline void sync_in_each_step(const SceneDraft& draft) {
     if (!draft.settings.has("time.sync_every"))
         draft.scene.sync_every = std::min(draft.scene.sync_every, draft.scene.micro_steps);
 }
 
-/// Warns where a run ends before the first sync. The message begins with `words`, such as "the wind
+/// Warns if a run ends before its first sync. The message begins with `words`, such as "the wind
 /// never blows: it would".
 inline void warn_of_no_sync(const SceneDraft& draft, std::string_view words) {
     SceneParameters& scene = draft.scene;

@@ -11,9 +11,9 @@
 //             dv = -rate v dt + sqrt(2 rate kT / m) dW, the process of Ornstein and Uhlenbeck.
 //   rescale   velocities relative to the centre of mass, and spins, are multiplied by the factor
 //             that makes their energy kT for each disc, and kT / 2 more where discs have spins.
-//             Discs that all fly alike, as a single one does, have nothing to be multiplied.
-// Spins count with the moment of inertia in place of the mass. Between sheared sides all velocities
-// are those about the flow.
+//             Discs that all fly alike, as a single disc does, stay as they are.
+// For spins the moment of inertia takes the place of the mass. Between sheared sides all velocities
+// are relative to the flow.
 //
 // Only + - * / and sqrt are used, so the bits are the same on every machine.
 #include <algorithm>
@@ -77,7 +77,7 @@ public:
 
     void act(const SyncDiscs& at) override {
         const double size = std::sqrt(setting_.strength * interval_);
-        // Random numbers above 2^10 do not occur: the probability is exp(-2^19).
+        // Normal numbers above 2^10 do not occur, because their probability is exp(-2^19).
         const double bound = n_discs_ * heaviest_ * size * 0x1p10;
         std::vector<ExactSum> sums(2, ExactSum(bound));
         sums.emplace_back(2 * n_discs_ * heaviest_);
@@ -277,7 +277,7 @@ std::vector<Rule> rules_of_thermostat() {
              }}};
 }
 
-/// A long time between syncs would leave nothing of the velocities.
+/// Limits the time between syncs, because after a long one no velocity would be left.
 void check_times_of_thermostat(const SceneDraft& draft) {
     constexpr double longest = 4;
     const SceneParameters& scene = draft.scene;
@@ -291,7 +291,7 @@ void check_times_of_thermostat(const SceneDraft& draft) {
                              rate, longest, longest / interval));
 }
 
-/// A bath does not change the distribution of velocities if nothing else gives or takes energy.
+/// A bath does not change the mean energy if nothing else gives or takes energy.
 bool makes_energy_jump(const Effects& effects) {
     const CheckAllowance others = allowance_of(effects);
     return effects.thermostat.is_on() &&
@@ -299,7 +299,7 @@ bool makes_energy_jump(const Effects& effects) {
             others.walls_give_energy || effects.are_sheared());
 }
 
-/// A thermostat must give valid speeds to discs.
+/// Checks that the speeds which a thermostat gives to discs are valid.
 void check_room_of_thermostat(const SceneDraft& draft) {
     const Thermostat& t = draft.scene.effects.thermostat;
     const double of_kick = std::sqrt(t.strength * steps_between_syncs(draft.scene));
@@ -327,7 +327,7 @@ std::string summary_of_thermostat(const Effects& effects) {
     return {};
 }
 
-/// Discs at rest that are heated by noise reach about the speed that they gain in a flight of a
+/// The typical speed. Noise brings discs at rest about to the speed that they gain in a flight of a
 /// radius.
 double usual_speed_of_thermostat(const SceneParameters& scene) {
     const Thermostat& t = scene.effects.thermostat;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The collisions that the time-stepped method loses at a given number of collisions per disc and
-// micro-step, compared with a table. The table comes from a separate program: 256 discs, hard
-// walls, rates to 1.2 %, most of which is common to a column.
+// The share of collisions that the time-stepped method loses at a given number of collisions per
+// disc and micro-step, compared with a table. A separate program made the table: 256 discs, hard
+// walls; rates have errors up to 1.2 %, mostly common to a column.
 #include "catch.hpp"
 
 #include <array>
@@ -75,8 +75,8 @@ LossOfMethod measure(double packing, double frequency, const RunSetting& setting
     return {mean_of(rates), mean_of(overlaps)};
 }
 
-/// The scatter of three starts is a poor estimate of the error. It is at least the counting error
-/// of both runs.
+/// The scatter of three starts is a poor estimate of the error. So the error is at least the
+/// counting error of both runs.
 double error_of_rate(const Mean& mean) {
     return std::max(mean.error, std::sqrt(2.0 / (n_starts * 256 * 150)));
 }

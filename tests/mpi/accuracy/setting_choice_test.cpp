@@ -18,7 +18,7 @@ SceneParameters unknown_gas(const std::string& more) {
     return read_scene("[box]\nsize = 50\n[time]\nsteps = 10\n[discs]\n" + more, "gas.toml");
 }
 
-/// The errors of a chosen setting, over several starts that the pilot has not seen.
+/// Tests the errors of a chosen setting in several starts that the pilot did not use.
 void check_delivery(SceneParameters scene, double accuracy, const Communicator& world,
                     int n_starts = 3, double pairs = 1e5) {
     scene.accuracy = accuracy;

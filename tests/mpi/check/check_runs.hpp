@@ -47,8 +47,8 @@ inline std::unique_ptr<Engine> engine_of(const SceneParameters& scene, StoredSta
     return make_time_stepped_engine(scene, std::move(state), world, {});
 }
 
-/// The message of a self-check that fails in the first steps of a scene; empty if none does, or if
-/// the engine rejects the scene.
+/// The message of a self-check that fails in the first steps of a scene; empty if no check fails
+/// or if the engine rejects the scene.
 inline std::string failure_of(const TestScene& test_scene, Method method,
                               const Communicator& world) {
     SceneParameters scene = checked_scene(test_scene, method);
@@ -132,8 +132,8 @@ inline std::vector<NamedEffects> named_effects() {
             {"growing discs", growing, false}};
 }
 
-/// The state after the first step of a gas, as the check gets it. A test may introduce an error
-/// before the check.
+/// The state after the first step of a gas, as it is passed to the check. A test may introduce an
+/// error before the check.
 class OneStep {
 public:
     explicit OneStep(Method method, const Effects& effects = {})
@@ -201,8 +201,8 @@ public:
     }
 
     LocalDiscs local_view;
-    std::vector<double> spins;         ///< spins along the own discs, if these are rough
-    std::vector<double> swapped_radii; ///< radii along them; empty if radii do not change
+    std::vector<double> spins;         ///< spins of the own discs, if discs are rough
+    std::vector<double> swapped_radii; ///< radii of the own discs; empty if radii do not change
     std::vector<DiscState> departed;
     std::vector<Collision> log;
 

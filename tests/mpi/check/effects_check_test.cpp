@@ -36,8 +36,8 @@ TEST_CASE("check: nothing is wrong in scenes with effects") {
 
 namespace {
 
-/// The invariant that a check of a step with effects finds broken after `spoil` has changed the
-/// step; nothing if it finds no error.
+/// The invariant that is reported as broken after `spoil` has changed a step with effects;
+/// nothing if the check finds no error.
 std::optional<Invariant> found_in(const Effects& effects,
                                   const std::function<void(OneStep&)>& spoil) {
     OneStep step(Method::event_driven, effects);
@@ -87,7 +87,7 @@ TEST_CASE("check: with effects, what is wrong is found all the same") {
                        [&](OneStep& step) { turns_faster(step, step.first_pair().p); }) ==
               (named.effects.contact.restitution == 1
                    ? std::optional(Invariant::energy)
-                   : std::nullopt)); // less than this might be energy that collisions take
+                   : std::nullopt)); // a smaller excess might be energy that collisions take
     }
     Effects piston;
     piston.boundaries[1] = {BoundaryKind::moving, 1, 0, -0.5};
@@ -124,7 +124,7 @@ Effects open_at_left() {
     return effects;
 }
 
-/// Takes a disc out of the own ones, as if it had departed at x.
+/// Removes a disc from the own discs, as if it had left the box at x.
 void let_out(OneStep& step, DiscId id, double x) {
     LocalDiscs& now = step.local_view;
     for (std::size_t i = 0; i < now.n_own; ++i) {
@@ -145,11 +145,11 @@ void let_out(OneStep& step, DiscId id, double x) {
 TEST_CASE("check: discs may leave by an open side, and in no other way") {
     const Effects open = open_at_left();
     CHECK(!found_in(open, [](OneStep&) {}));
-    // The log has no departure of it.
+    // The log lacks the departure of the disc.
     CHECK(found_in(open, [](OneStep& step) {
               let_out(step, step.free_disc(), -step.scene().radius);
           }) == Invariant::departed);
-    // Its departure is in the log, and its place is not.
+    // The departure is in the log, so only the position can be wrong.
     const auto depart_at = [](double radii_outside) {
         return [=](OneStep& step) {
             const DiscId id = step.free_disc();

@@ -19,7 +19,7 @@ struct LocalDiscs {
     Frame frame;
 
     LocalView view() const { return {{discs, n_own}, &grid, &domains, time, frame}; }
-    /// Puts the discs into the cells of their present positions, and the own ones into their order.
+    /// Puts discs into the cells of their present positions, and own discs into the order of cells.
     /// Partners within a diameter are within reach.
     void sort_into_cells(double box_size, double radius);
 };
@@ -27,8 +27,8 @@ struct LocalDiscs {
 /// A copy of a view that an engine has redistributed.
 LocalDiscs copy_of(const LocalView& local_view);
 
-/// A view of a few `discs`: those in this rank's equal strip are own discs, the others are its
-/// halo.
+/// A view of a few `discs`: those in this rank's strip (of equal strips) are own discs, the other
+/// discs are the halo.
 LocalDiscs view_by_hand(const std::vector<DiscState>& discs, double time, double box_size,
                         double radius, int rank, int n_ranks);
 

@@ -2,7 +2,7 @@
 // Ends like a run whose search has missed a contact: disc 5 has flown into disc 9 without a
 // collision.
 //
-// missed_contact RULE: writes the discs around to the working folder and ends with code 70 on every
+// missed_contact RULE: writes the nearby discs to the working folder and ends with code 70 on every
 // rank. In the event-driven method discs are rough and have two masses.
 #include <cstdio>
 #include <string>

@@ -47,8 +47,8 @@ struct Passing {
         return view_by_hand(discs, time, 20, 1, world.rank(), world.size());
     }
 
-    /// Whether the check accepts the end of the next step; `walls` collisions of disc 0 are counted
-    /// and logged in it.
+    /// Whether the check accepts the end of the next step. `walls` is the number of disc 0's wall
+    /// collisions that are counted and logged in the step.
     bool is_right(std::uint64_t walls = 0) {
         std::vector<Collision> log;
         discs[0].wall_collisions = (discs[0].wall_collisions + walls) & 0x7fffffffffff;

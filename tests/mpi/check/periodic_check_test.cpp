@@ -49,8 +49,8 @@ StateHash hash_after(const TestScene& test, Method method, bool is_checked,
     return system.totals().hash;
 }
 
-/// The failure that the check finds if discs fly on for a micro-step without collisions, whatever
-/// is in their way.
+/// The failure that the check finds if all discs fly for a micro-step without collisions, even
+/// through other discs.
 std::optional<CheckFailure> failure_of_flight(const TestScene& test, const Communicator& world) {
     const SceneParameters scene = scene_of(test, Method::time_stepped);
     DiscStates before, now;

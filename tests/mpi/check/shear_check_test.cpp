@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The self-check between sheared sides: it includes the work of moving images, and detects a wrong
-// value of it.
+// The self-check between sheared sides includes the work of moving images, and detects a wrong
+// value of this work.
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,7 +26,7 @@ TestScene sheared_gas() {
 }
 
 /// The failure that the check finds in 30 steps if the engine's work of images is multiplied by
-/// this factor.
+/// `factor`.
 std::string failure_with(const TestScene& test, Method method, double factor,
                          const Communicator& world) {
     const SceneParameters scene = checked_scene(test, method);

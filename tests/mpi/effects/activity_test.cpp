@@ -19,8 +19,8 @@ namespace {
 
 constexpr Boundary periodic{BoundaryKind::periodic, 1, 0, 0};
 
-/// Active Brownian discs, rough ones that tumble, and two species with one force, rotation and
-/// tumbles; each between walls and without walls.
+/// Scenes of active Brownian discs, of rough discs that tumble, and of two species with one force,
+/// rotation and tumbling; each between walls and without walls.
 std::vector<TestScene> active_scenes() {
     std::vector<TestScene> scenes;
     for (const bool has_walls : {true, false}) {
@@ -121,7 +121,7 @@ TEST_CASE("effects: free active discs come to their speed, along their direction
 }
 
 // The mean cosine of the angle that discs have turned in a time t is exp(-(D + rate) t), and the
-// first directions are uniform. With 20,000 discs the error is some 0.005; the bound is 0.02.
+// initial directions are uniform. With 20,000 discs the error is some 0.005; the bound is 0.02.
 TEST_CASE("effects: directions forget at the sum of both rates") {
     const Communicator alone = Communicator::of_this_rank();
     constexpr std::size_t n = 20'000;

@@ -26,7 +26,7 @@ std::pair<long double, int> reflected(long double start, long double way, long d
 
 } // namespace
 
-// A collision takes (1 - e^2) of the normal part of a pair's energy in its own frame. In a
+// A collision dissipates (1 - e^2) of the normal part of a pair's energy in its rest frame. In a
 // Maxwellian gas colliding pairs have <g_n^2> = 4 kT / m, so a collision takes (1 - e^2) kT on
 // average. With E = N kT this gives ln(T / T0) = -(1 - e^2) pairs / N. The collision rate is
 // proportional to sqrt(T), so 1 / sqrt(T) grows at a constant rate: Haff's law (J. Fluid Mech. 134,
@@ -58,9 +58,9 @@ TEST_CASE("effects: a thin gas cools by Haff's law") {
     CHECK(end.overlapping_pairs == 0);
 }
 
-// Three and more discs in a line with little restitution come to rest relative to each other after
+// With low restitution, three or more discs in a line come to rest relative to each other after
 // infinitely many collisions (McNamara and Young, Phys. Fluids A 4, 496 (1992)). The contact time
-// ends that.
+// prevents that.
 TEST_CASE("effects: inelastic collapse comes to an end, and energy only falls") {
     const Communicator world = Communicator::world();
     for (const std::size_t n : {3u, 30u}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Combinations of effects. The runs together contain every two choices from different rows of the
-// table below (pairwise covering), and each is compared with the reference bit by bit. A new effect
-// takes a new choice here, and a line of `excluded` for each choice that excludes it.
+// Combinations of effects. Together the runs contain every pair of choices from different rows of
+// the table below (pairwise covering), and each run is compared with the reference bit by bit. A
+// new effect needs a new choice here, and a line of `excluded` for each choice that excludes it.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -103,7 +103,7 @@ void split_into_species(Plan& plan) {
                                           {n - 3 * (n / 4), 0.7 * radius, 0.6}};
 }
 
-/// Adds a few obstacles, and removes the discs in their places.
+/// Adds a few obstacles, and removes the discs that overlap them.
 void put_obstacles(Plan& plan) {
     reference::Setting& setting = plan.scene.setting;
     const double size = setting.box_size;
@@ -151,7 +151,7 @@ bool takes_the_place_of(const std::string& a, const std::string& b) {
     return is_side && !b.ends_with(" wall");
 }
 
-/// Pairs of choices that the reader of scenes refuses, by the ends of their names.
+/// Pairs of choices that the reader of scenes rejects, by the ends of their names.
 bool is_excluded(const std::string& a, const std::string& b) {
     static const std::vector<std::pair<std::string, std::string>> excluded = {
         {"time-stepped", "moving"},

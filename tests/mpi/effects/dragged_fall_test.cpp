@@ -36,7 +36,7 @@ Long speed_after(Long time, Long speed) {
     return speed + (speed + g / Long(rate)) * std::expm1(-rate * time);
 }
 
-/// The time at which a body is at `depth` on the way down, by bisection. At `late` it is deeper.
+/// The time at which a body reaches `depth` on the way down, by bisection. At `late` it is deeper.
 Long time_down(Long depth, Long speed, Long late) {
     Long early = speed > 0 ? std::log1p(rate * speed / g) / rate : 0; // time at the top
     for (int k = 0; k < 200; ++k) {

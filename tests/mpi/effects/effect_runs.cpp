@@ -18,7 +18,7 @@ std::vector<InputDisc> share_of(const TestScene& scene, const Communicator& worl
     return share_of(scene, world.rank(), world.size(), 5);
 }
 
-/// Windows go on after most stops, and end at those at which totals are computed.
+/// Most stops leave the present window unfinished; computing the totals ends the window.
 void advance_step_by_step(DiscSystem& system, std::int64_t last_step) {
     while (system.step() < last_step) {
         advance_to(system, system.step() + 1);

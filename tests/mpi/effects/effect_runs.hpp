@@ -27,7 +27,7 @@ void check_shared_run(const TestScene& scene, Method method, const Communicator&
 /// Removes discs that overlap obstacles, and numbers the others again.
 void make_room_for_obstacles(TestScene& scene);
 
-/// Sets drag of that rate per step, in the scene and for the references.
+/// Sets drag with this rate per step, in the scene and for the references.
 void set_drag(TestScene& scene, double rate);
 
 } // namespace carrom::test

@@ -31,7 +31,7 @@ TestScene mixture(const std::vector<Species>& species, double box_size, double s
     return scene;
 }
 
-/// Three sizes, with masses that are not a function of them.
+/// Mixtures of three sizes, with masses that are not a function of the sizes.
 std::vector<TestScene> mixtures() {
     const std::vector<Species> three{{12, 2.5, 3}, {60, 1, 1.3}, {150, 0.3, 0.07}};
     std::vector<Species> many; // more species than are searched one by one

@@ -184,7 +184,7 @@ TEST_CASE("effects: diffusion in a periodic Lorentz gas is that of hops from tra
         advance_to(system, step);
         const std::vector<DiscState> now = all_discs(system, world);
         double squares = 0;
-        // in so many steps no disc flies through half the box
+        // in these few steps no disc flies through half the box
         for (std::size_t i = 0; i < now.size(); ++i) {
             x[i] += std::remainder(now[i].x - before[i].x, size);
             y[i] += std::remainder(now[i].y - before[i].y, size);

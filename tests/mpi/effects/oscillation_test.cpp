@@ -32,8 +32,8 @@ struct Ball {
     Long plate_speed(Long at) const {
         return amplitude * 2 * std::numbers::pi_v<Long> / period * std::cos(angle(at));
     }
-    /// The largest factor by which a hit multiplies errors, because a later hit meets the plate at
-    /// another speed.
+    /// The largest factor by which a hit multiplies errors: they shift the time of a later hit, so
+    /// also the speed of the plate at that hit.
     Long growth() const {
         const Long rate = 2 * std::numbers::pi_v<Long> / period;
         return 2 + 2 * (1 + restitution) * amplitude * rate * rate / gravity;
@@ -142,7 +142,7 @@ TEST_CASE("oscillation: a disc that never leaves the plate goes with it") {
                 CHECK(disc.vy == Approx(speed).margin(0.0325 * 0.25));
             }
         }
-        // Little more than one collision in each contact time.
+        // Each contact time has little more than one collision.
         CHECK(system.totals().wall_collisions < 960); // 1.5 times 160 / 0.25
     }
 }

@@ -36,7 +36,7 @@ struct Solid {
     }
 };
 
-/// Two spinning discs that collide obliquely, before and after.
+/// Two spinning discs in an oblique collision, before and after it.
 struct Meeting {
     std::array<Solid, 2> before, after;
 };
@@ -88,7 +88,7 @@ Meeting meet(const ContactEffect& contact, Method method, const Communicator& wo
                                 meeting.before[k].radius,
                                 meeting.before[k].mass,
                                 contact.inertia};
-            meeting.before[k].x += meeting.before[k].vx * row[6]; // moves both to where they meet
+            meeting.before[k].x += meeting.before[k].vx * row[6]; // moves both to the contact
             meeting.before[k].y += meeting.before[k].vy * row[6];
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls and obstacles that rub and slide: collisions and rolling by the laws of mechanics, the same
-// bits on every machine shape, and the self-check.
+// Walls and obstacles with friction and sliding surfaces: collisions and rolling by the laws of
+// mechanics, the same bits on every machine shape, and the self-check.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -27,7 +27,7 @@ struct Motion {
     double vx = 0, vy = 0, spin = 0;
 };
 
-/// The motion of the scene's only disc, which begins with that spin. **Collective.**
+/// The motion of the scene's only disc, which starts with the spin `spin`. **Collective.**
 Motion motion_after(const TestScene& scene, double spin, Method method, const Communicator& world,
                     std::uint64_t n_bounces) {
     SceneParameters all = scene_of(scene);
@@ -57,7 +57,7 @@ Motion motion_after(const TestScene& scene, double spin, Method method, const Co
     return sum;
 }
 
-/// A body with an outward normal (nx, ny), whose surface moves with u along (-ny, nx).
+/// A body with an outward normal (nx, ny), whose surface moves with velocity u along (-ny, nx).
 struct Body {
     double nx, ny, u;
 };

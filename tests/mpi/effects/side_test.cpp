@@ -166,7 +166,7 @@ TEST_CASE("effects: an ideal gas is compressed adiabatically, and its energy is 
 }
 
 // Discs that never collide leave at the time and place that follow from their flights, unfolded at
-// the closed walls. They stay where they left.
+// the closed walls. Afterwards they stay at the place where they left.
 TEST_CASE("effects: discs leave through open sides when their flights say, and are counted") {
     const Communicator world = Communicator::world();
     for (const Method method : {Method::time_stepped, Method::event_driven}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thermostats: the same bits on every machine shape, what each conserves, and the self-check.
+// Thermostats: the same bits on every machine shape, conserved quantities, and the self-check.
 #include <cmath>
 #include <span>
 #include <string>
@@ -124,7 +124,7 @@ TEST_CASE("effects: rescaling fixes the energy, and kicks keep the momentum") {
     }
 }
 
-// The rounding error of the discs' mean velocity must not be amplified to heat.
+// The rounding error of the discs' mean velocity must not be amplified into heat.
 TEST_CASE("effects: discs that all fly alike stay so when velocities are rescaled") {
     const Communicator world = Communicator::world();
     for (const double mass : {0.1, 0.3, 0.37, 7.7}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes in which block runs fail most easily: chains of collisions that cross any distance in no
-// time, hits from beyond a block's halo, equal times on every boundary, and speeds beyond any
-// bound. Also a test that results are wrong without the validation.
+// Scenes in which block runs fail most easily: collision cascades that cross any distance in zero
+// time, hits from beyond a block's halo, equal times on every boundary, and speeds above any
+// bound. A further test shows that results are wrong without the validation.
 #include <cmath>
 #include <string>
 
@@ -25,8 +25,8 @@ TestScene struck_line(std::size_t n, bool along_y) {
     return along_y ? transposed(scene) : shuffled(scene, n);
 }
 
-/// Many short lines of touching discs among discs at rest. Each line is hit at one end in the
-/// middle of a window.
+/// Many short lines of touching discs among discs at rest. Each line is hit at one end, half-way
+/// through a window.
 TestScene struck_lines(std::uint64_t seed) {
     Random random(seed);
     TestScene scene = empty_scene("struck lines, seed " + std::to_string(seed), 96, 0.5, 16);

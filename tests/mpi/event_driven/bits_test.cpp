@@ -19,8 +19,8 @@ using namespace carrom::test;
 
 namespace {
 
-/// Runs each scene in `n_shapes` ways. The reference of each computes about `most_predictions`
-/// predicates.
+/// Runs each scene in `n_shapes` ways. The reference computes about `most_predictions` predicates
+/// for each scene.
 void check_against_reference(const std::vector<TestScene>& scenes, std::size_t n_shapes,
                              std::size_t most_predictions) {
     const Communicator world = Communicator::world();

@@ -42,7 +42,7 @@ double deepest_overlap(const std::vector<DiscState>& discs, double time, double 
     return deepest;
 }
 
-/// Collisions of pairs that have collided with each other before, with no other collision of either
+/// The number of collisions whose pair has collided before, without another collision of either
 /// disc in between.
 std::size_t n_repeated(std::vector<Collision> log, std::size_t n_discs) {
     const auto key = [](const Collision& c) {

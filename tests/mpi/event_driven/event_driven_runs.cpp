@@ -18,8 +18,8 @@ namespace carrom::test {
 
 namespace {
 
-/// Successive scenes differ in one respect, so neighbours go to different parts, and so do every
-/// n-th ones. If many threads would run at once, every second scene has no part.
+/// Successive scenes differ in one respect, so neighbours go to different parts, and so does every
+/// n-th scene. If too many threads would run, every second scene belongs to no part.
 bool belongs_to_part(std::size_t number, int n_threads) {
     const std::optional<ShapePart> part = shape_part();
     if (!part) return true;

@@ -22,7 +22,7 @@ struct EventDrivenResult {
 bool is_wanted(const TestScene& scene, std::size_t number);
 
 /// The result of the event-driven reference, computed on rank 0. Reduces the scene's steps if the
-/// reference would take long, because it costs N predicates per event. **Collective.**
+/// reference would take long, because it computes N predicates per event. **Collective.**
 EventDrivenResult expected_of(TestScene& scene, const Communicator& world,
                               std::size_t most_predictions);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A block's run may get discs of its ring wrong if these cannot meet an own disc. How far a disc
+// A block run may compute its ring's discs wrongly if they cannot meet an own disc. How far a disc
 // can come depends on its largest speed in the window, which possibly only its owner knows
 // (docs/understanding/method.md, section 8.2). In these scenes there are two discs at rest, more
 // than a diameter away from a block's end on either side. Discs that the other block does not

@@ -4,7 +4,7 @@
 // has touched one of its own discs, directly or through others. This rule is wrong, and this file
 // keeps the smallest scenes that show it.
 //
-// The simpler rule exists only here, on top of the reference engine. Marking is as careful as
+// The simpler rule exists only here, on top of the reference engine. The marking is as cautious as
 // possible: every disc that is not an own disc of the block is marked from the start.
 #include <algorithm>
 #include <cmath>

@@ -36,21 +36,21 @@ const DeviceKind& gpu() {
 #ifdef CARROM_HAS_CUDA
     return cuda_device();
 #else
-    return serial_device(); // this program can be tried without a GPU, too
+    return serial_device(); // so that this program can be tested without a GPU
 #endif
 }
 
 struct Gas {
     std::string name;
     std::uint32_t n = 0;
-    double speed = 0; ///< the largest one, in radii per micro-step
+    double speed = 0; ///< the largest speed, in radii per micro-step
     Effects effects = {};
     double packing = 0.2;
 
     double side() const { return std::sqrt(n * 3.14159265358979 / packing); }
 };
 
-/// Discs of radius 1 on a shaken lattice, with room for each.
+/// Discs of radius 1 on a shaken lattice without overlaps.
 DiscStates discs_of(const Gas& gas) {
     test::Random random(gas.n);
     const auto per_row = static_cast<std::uint32_t>(std::ceil(std::sqrt(gas.n)));
@@ -93,7 +93,7 @@ public:
             if (micro_ == sync_every) sync();
         }
     }
-    /// By id.
+    /// The states in the order of ids.
     DiscStates states() {
         stepper_->get(discs_);
         std::ranges::sort(discs_, {}, &DiscState::id);
@@ -200,7 +200,7 @@ bool compare_all(std::uint32_t n, int n_micro) {
     return are_right;
 }
 
-/// Prints a line of the table of speeds. The rate is of micro-steps, syncs included.
+/// Prints a line of the table of speeds. The rate counts micro-steps and includes syncs.
 template <class Dynamics> void measure(const Gas& gas, ContactFormula formula) {
     using Clock = std::chrono::steady_clock;
     const Dynamics dynamics(gas.side(), 1, gas.effects, formula);

@@ -56,7 +56,7 @@ std::vector<InputDisc> on_root(const std::vector<InputDisc>& mine, const Communi
     return all;
 }
 
-/// The least gap of any two discs, and of any disc and a wall.
+/// The smallest gap between any two discs, and between any disc and a wall.
 double least_gap(const std::vector<InputDisc>& discs, const SceneParameters& scene) {
     const double length = scene.box.x;
     const bool goes_round_x = scene.effects.is_periodic_x(),

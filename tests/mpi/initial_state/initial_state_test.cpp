@@ -103,7 +103,7 @@ void give_velocities_by_hand(const SceneParameters& scene, Discs& discs) {
     }
 }
 
-/// Positions must be equal, velocities equal to rounding.
+/// Positions must be equal, and velocities equal up to rounding.
 void check_generated(const Discs& mine, const Discs& reference) {
     const Discs all = all_by_id(mine);
     if (!ranks().is_root()) return;
@@ -151,7 +151,7 @@ Discs inserted_by_the_rule(const SceneParameters& scene) {
 }
 
 /// The legacy generator as written in C: plain `rand`, and a comparison with all earlier discs.
-/// Sine and cosine are rounded correctly, because those of C libraries differ between processors.
+/// Sines and cosines are rounded correctly, because C libraries round differently on processors.
 Discs legacy_by_hand(std::uint64_t n, double box, double r) {
     std::srand(3210);
     const auto uniform = [](double low, double high) {
@@ -384,7 +384,7 @@ TEST_CASE("a start that jams gives way to the next one on any number of ranks") 
 }
 
 TEST_CASE("discs that jam in every try are refused on every rank") {
-    // a jam takes a hundred thousand rounds of messages, and more ranks test nothing else
+    // a jam takes a hundred thousand rounds of messages, and more ranks test nothing new
     if (ranks().size() > 2) return;
     SceneParameters scene = scene_of(
         {"discs.radius=2.49", "discs.count=4", "discs.generator=lattice"});

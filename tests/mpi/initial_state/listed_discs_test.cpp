@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of discs that all ranks read at once, compared with the text that they were made from.
+// Files of discs that all ranks read at the same time, compared with the texts they were made from.
 // Error messages are compared with those of a single reader.
 #include "catch.hpp"
 

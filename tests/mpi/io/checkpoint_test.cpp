@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checkpoints on 1 to 7 ranks: what is read equals what was written, bit by bit; the file does not
-// depend on the ranks that wrote it; all ranks notice a damaged one.
+// Checkpoints on 1 to 7 ranks: data that are read equal the written data, bit by bit; the file does
+// not depend on the ranks that wrote it; all ranks detect a damaged file.
 #include "checkpoint_tools.hpp"
 
 using namespace carrom;

@@ -80,7 +80,7 @@ inline SideColumns spins_of(const std::vector<DiscState>& discs) {
     return columns;
 }
 
-/// Discs 0 .. n-1 in no order, distributed so that some ranks may have none.
+/// Discs 0 .. n-1 in an irregular order, distributed so that some ranks may have no disc.
 inline std::vector<DiscState> share(std::uint64_t n, const Communicator& world, unsigned method) {
     std::vector<DiscState> mine;
     const auto size = static_cast<std::uint64_t>(world.size());
@@ -125,7 +125,7 @@ inline std::string bytes_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The text and code of the error with which reading ends, the same on every rank; empty if the
+/// The text and code of the error with which reading fails, the same on every rank; empty if the
 /// file can be read.
 inline std::string problem_of(const std::string& path, const Communicator& world) {
     try {

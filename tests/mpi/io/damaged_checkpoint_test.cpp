@@ -75,8 +75,8 @@ TEST_CASE("damage is told by the data set that it is in") {
 
 namespace {
 
-/// Flips one bit of each of these bytes in turn, which all ranks must notice. Returns how many were
-/// not noticed.
+/// Flips one bit of each of these bytes in turn, which all ranks must detect. Returns the number of
+/// undetected flips.
 int unnoticed_flips(const std::vector<std::size_t>& places, const Communicator& world) {
     const TestFolder folder(world);
     const std::string path = folder.file("a.h5");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Another folder takes the place of a folder during a write. No file may get its name in the other
-// folder.
+// A folder is replaced by another folder during a write. The write must not create a file in the
+// other folder.
 #include <filesystem>
 #include <fstream>
 #include <iterator>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trajectories and logs of collisions on 1 to 7 ranks: what is read equals what was given, in
+// Trajectories and logs of collisions on 1 to 7 ranks: data that are read equal the given data, in
 // order, and a restart cuts the file back.
 #include "io/trajectory.hpp"
 
@@ -224,7 +224,7 @@ TEST_CASE("a log of collisions keeps the order of the ranks and is cut back") {
     const TestFolder folder(world);
     const std::string path = folder.file("c.h5");
     const auto append = [&](CollisionLog& log, std::int64_t begin, std::int64_t end) {
-        std::vector<LoggedCollision> mine; // a rank has a slice of them
+        std::vector<LoggedCollision> mine; // a rank has a slice of the collisions
         const std::int64_t n = end - begin, p = world.size(), r = world.rank();
         for (std::int64_t k = begin + n * r / p; k < begin + n * (r + 1) / p; ++k)
             mine.push_back(collision(k));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs that a program changes between steps, copies in memory, and arrays by id. They are compared
-// with two discs computed by hand, with uninterrupted runs, and on one rank with all ranks.
+// Discs that a program changes between steps, copies in memory, and arrays by id. Results
+// are compared with two discs computed by hand, with uninterrupted runs, and between rank counts.
 #include "catch.hpp"
 
 #include <algorithm>

@@ -99,7 +99,7 @@ TEST_CASE("checkpoints are written on a schedule, and the newest of a folder is 
         CHECK(hash_of(second) == hash_of(whole));
     }
     MPI_Barrier(MPI_COMM_WORLD);
-    const std::vector<std::string> last = names(); // older ones are removed while steps go on
+    const std::vector<std::string> last = names(); // older files are removed while the run advances
     CHECK(std::count(last.begin(), last.end(), name(48)) == 1);
     CHECK(std::count(last.begin(), last.end(), name(50)) == 1);
     CHECK(std::count(last.begin(), last.end(), name(12)) == 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes made in code. Results are compared with two discs computed by hand, with sums over the
-// discs, and on one rank with all ranks.
+// discs, and between rank counts.
 #include "catch.hpp"
 
 #include <algorithm>
@@ -103,7 +103,7 @@ TEST_CASE("one rank alone comes to the state that all ranks come to together") {
     for (const char* method : {"time-stepped", "event-driven"}) {
         Simulation together(session, gas(method, 40));
         Simulation mine(alone, gas(method, 40), {.threads = 2});
-        together.advance_to(7); // steps may be divided in any way
+        together.advance_to(7); // steps may be divided among calls in any way
         together.advance_to_end();
         mine.advance_to_end();
         CHECK(hash_of(together) == hash_of(mine));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Correlations over decades of time, compared with frames of all discs pair by pair; also with a
-// restart between samples.
+// Correlations over decades of time, compared with frames of all discs, pair by pair; also in runs
+// with a restart between samples.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -199,7 +199,7 @@ TEST_CASE("measurements: diffusion is the same for who sees all discs drift") {
         advance_to(system, sampler, 65);
         return sampler.tables();
     };
-    // Rounding errors grow with each collision. In so few steps they stay far below the bound.
+    // Rounding errors grow with each collision. In these few steps they stay far below the bound.
     const std::vector<MeasuredTable> still = tables_with_drift(0), drifting = tables_with_drift(3);
     for (const auto& [table, column] :
          {std::pair{"diffusion", "D"}, std::pair{"velocity_autocorrelation", "squares"},

@@ -95,7 +95,7 @@ inline void check_going_on(const SceneParameters& scene, const TestScene& test, 
     }
 }
 
-/// A disc in the box's coordinates, now; velocities are per step.
+/// The present state of a disc in box coordinates; velocities are per step.
 struct SeenDisc {
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every count and sum of the tables, compared with values computed from all discs, pair by pair;
-// also with a restart.
+// also in runs with a restart.
 #include <array>
 #include <cmath>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The watched order is psi6 at the watch's own steps. It does not depend on ranks, and continues
-// after a restart.
+// The watched order is psi6 at the watch's own steps. The order does not depend on ranks, and
+// continues after a restart.
 #include <cmath>
 #include <optional>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measurements in boxes with periodic sides: pairs as nearest images, and displacements continued
-// through the seams.
+// Measurements in boxes with periodic sides: pairs by nearest images, and displacements that
+// continue through the seams.
 #include <array>
 #include <cmath>
 #include <map>
@@ -102,7 +102,7 @@ struct ByHand {
     /// discs give momentum to an obstacle or a wall along the periodic axis
     bool is_stopped = false;
 
-    /// Displacement of the centre of mass since the beginning; 0 if an obstacle or a wall stops it.
+    /// Displacement of the centre of mass since the start; 0 if an obstacle or a wall stops it.
     double centre(std::size_t axis) const {
         double sum = 0, mass = 0;
         for (std::size_t i = 0; i < flown.size(); ++i) {

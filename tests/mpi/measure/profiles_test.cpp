@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Profiles on a grid, compared with sums over all discs of each cell; also with a restart inside a
-// block.
+// Profiles on a grid, compared with sums over all discs of each cell; also in runs with a restart
+// inside a block.
 #include <algorithm>
 #include <array>
 #include <cmath>

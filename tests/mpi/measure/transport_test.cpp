@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Transport coefficients, compared with Helfand's moments of discs that have not reached the box's
-// sides; also with a restart between samples.
+// Transport coefficients, compared with Helfand's moments of discs that have not reached the sides
+// of the box; also in runs with a restart between samples.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -77,8 +77,8 @@ TEST_CASE("measurements: transport is the spread of Helfand's moments") {
             kinetic += disc.vx * disc.vx + disc.vy * disc.vy;
         }
         const double kT = (kinetic - n * (ux * ux + uy * uy)) / (2 * (n - 1));
-        // In the frame of the centre of mass, positions of energies move with the velocity of the
-        // drift.
+        // In the frame of the centre of mass, the positions in the moments of energy move with
+        // the drift velocity.
         for (std::size_t t = 0; t < moments.size(); ++t) {
             const double energy = kT * (n - 1);
             moments[t][2] -= ux * energy * 5 * static_cast<double>(t);

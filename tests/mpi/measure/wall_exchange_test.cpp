@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energy and momentum from walls, compared with the balance of all discs, which get both only from
-// walls and gravity. Also with a restart between samples.
+// Energy and momentum from walls, compared with the balance of all discs, which gain both only from
+// walls and gravity. Also in runs with a restart between samples.
 #include <array>
 #include <cmath>
 #include <vector>

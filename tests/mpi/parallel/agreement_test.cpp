@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// After an agreement all ranks throw the same, or none does. The end of runs is tested with
-// failing_program.
+// After an agreement either all ranks throw the same error, or no rank throws. How runs end is
+// tested with failing_program.
 #include "parallel/agreement.hpp"
 
 #include "catch.hpp"

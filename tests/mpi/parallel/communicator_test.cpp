@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reductions, broadcasts and gathers, compared with results that each rank can compute alone.
+// Reductions, broadcasts and gathers, compared with results that each rank can compute on its own.
 #include "parallel/communicator.hpp"
 
 #include <array>

@@ -15,7 +15,7 @@ using carrom::Received;
 
 namespace {
 
-/// The data from `sender` to `receiver`: nothing, little or much.
+/// The data from `sender` to `receiver`: empty, short or long.
 std::vector<std::uint64_t> parcel(int trial, int sender, int receiver) {
     std::mt19937 random(static_cast<unsigned>(trial * 10007 + sender * 101 + receiver));
     const std::size_t sizes[] = {0, 0, 1, 7, 200};

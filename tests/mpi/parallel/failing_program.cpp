@@ -20,7 +20,7 @@ bool is_abort_stuck = false; ///< as if a signal interrupts MPI's own bookkeepin
 
 constexpr double patience_seconds = 1;
 
-/// Delays a rank that leaves by an exception, like a slow disk while files are removed.
+/// Delays a rank that leaves by an exception, as a slow disk does while files are removed.
 struct LateLeaver {
     ~LateLeaver() {
         if (is_late) std::this_thread::sleep_for(std::chrono::seconds(10));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pieces of ids, with records from any ranks whose contents every rank can compute alone.
+// Pieces of ids. The records come from any ranks, and every rank can compute their contents alone.
 #include "parallel/pieces.hpp"
 
 #include <algorithm>

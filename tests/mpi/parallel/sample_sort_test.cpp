@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The distributed sort, compared with std::stable_sort of all ranks' records, which each rank can
-// make itself.
+// generate itself.
 #include "parallel/sample_sort.hpp"
 
 #include <functional>
@@ -49,8 +49,8 @@ std::vector<Record> records_of(const Filling& filling, int rank, int n_ranks) {
     return records;
 }
 
-/// Compares each slice with the stretch of the reference that begins at the sum of the slices
-/// before.
+/// Compares each slice with the part of the reference that begins after all records of earlier
+/// slices.
 void check_sort(const Communicator& world, const Filling& filling, int n_slices, bool is_balanced) {
     std::vector<Record> all;
     for (int rank = 0; rank < world.size(); ++rank) {

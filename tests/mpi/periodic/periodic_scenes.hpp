@@ -75,7 +75,7 @@ inline TestScene tied(std::size_t k) {
     return scene;
 }
 
-/// Two discs in a box with just enough room for each between the images of the other.
+/// Two discs in a box that barely has room for each disc between the images of the other.
 inline TestScene narrow() {
     TestScene scene = empty_scene("two discs in a narrow box", 4 * (1 + 2e-6), 1, 40);
     add_disc(scene, 1.1, 1.2, 0.7, 0.31);

@@ -20,7 +20,7 @@ using namespace carrom::test;
 
 namespace {
 
-/// Bits do not depend on the machine shape, so only small shapes make long runs.
+/// Bits do not depend on the machine shape, so long runs are made only on small shapes.
 bool is_left_to_small_shapes(const Communicator& world) {
     return world.size() * omp_get_max_threads() > 2;
 }
@@ -90,7 +90,7 @@ TEST_CASE("shear: stresses depend neither on the frame nor on where the seam is"
 
 namespace {
 
-/// In units of sqrt(m kT) / diameter, by Gass (1971).
+/// The viscosity in units of sqrt(m kT) / diameter, by Gass (1971).
 double enskog_viscosity(double packing) {
     const double bn = 2 * packing, chi = (1 - 7 * packing / 16) / ((1 - packing) * (1 - packing));
     return 1.022 / (2 * std::sqrt(std::numbers::pi)) * (1 / chi + bn + 0.8729 * chi * bn * bn);
@@ -147,7 +147,7 @@ TEST_CASE("shear: the viscosity is Enskog's") {
     CHECK(viscosity / unit == Approx(enskog_viscosity(0.3)).epsilon(0.08));
 }
 
-// The same without losses: a thermostat that rescales velocities relative to the flow takes the
+// Elastic discs: a thermostat that rescales velocities relative to the flow takes the
 // energy that the flow gives. It keeps kT relative to the flow constant, except for the mean
 // velocity, a share of 1 / n.
 TEST_CASE("shear: elastic discs whose velocities are rescaled have Enskog's viscosity") {

@@ -12,8 +12,7 @@ namespace {
 std::uint64_t collisions_until_end(double apart, bool are_with_walls = false) {
     CascadeWatch watch;
     std::uint64_t n = 0;
-    while (n < 10000000 &&
-           !watch.add(static_cast<double>(n) * apart, 0x1p-40, 10, are_with_walls))
+    while (n < 10000000 && !watch.add(static_cast<double>(n) * apart, 0x1p-40, 10, are_with_walls))
         ++n;
     return n;
 }

@@ -102,8 +102,8 @@ TEST_CASE("what is written of a scene reads as the same scene, whatever it names
     // the keys that have not occurred, until all have.
     std::vector<const Key*> missing;
     constexpr int enough = 1500;
-    for (int i = 0; i < 30000 || (i < 300000 && (!missing.empty() || n_read <= enough)); ++i) {
-        if (i + 1 >= 30000) missing = keys_not_in(is_written);
+    for (int i = 0; i < 20000 || (i < 300000 && (!missing.empty() || n_read <= enough)); ++i) {
+        if (i + 1 >= 20000) missing = keys_not_in(is_written);
         const std::size_t turn = static_cast<std::size_t>(i);
         Texts overrides = random_overrides(draw, missing.empty() ? nullptr
                                                                  : missing[turn % missing.size()]);

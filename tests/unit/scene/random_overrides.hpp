@@ -153,6 +153,10 @@ inline Texts scene_with(Draw& draw, const Key& key) {
         return {"discs.count=20", "discs.radius=1",
                 draw.below(2) == 0 ? "time.arithmetic=naive" : "time.method=time-stepped",
                 key.name + '=' + draw.value(key)};
+    if (key.name.ends_with(".contacts"))
+        return {two_species, "effects.obstacles.discs=[[50, 50, 3]]",
+                key.name + "=[{species = 2, restitution = 0." + std::to_string(1 + draw.below(9)) +
+                    "}, {species = 1, tangential_restitution = 0.5, friction = 0.25}]"};
     const std::string end = ".inlet.species";
     if (!key.name.ends_with(end)) return {};
     const std::string side = key.name.substr(0, key.name.size() - end.size());
