@@ -137,6 +137,7 @@ private:
     double work_of(const Collision& collision) const;
     double resting_gain(const Known& known) const;
     double largest_energy_of_place() const;
+    double energy_of_flow() const;
     double other_energy(const DiscState& seen, double spin) const;
     double energy_of_way(std::size_t i) const;
     double speed_of_walls() const;

@@ -131,7 +131,7 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
             expected += k * k * given;
         }
         scale = (were_rewritten() ? std::max(energy_, energy) : energy_) +
-                total_mass_ * k * k * largest_energy_of_place();
+                total_mass_ * (k * k * largest_energy_of_place() + energy_of_flow());
         allowed = bound * scale + n * k * k * communicator_.max(gain) + k * k * work_of_walls();
         energy_ = sways ? energy_of(own) : energy;
     }
@@ -207,6 +207,13 @@ double StateCheck::largest_energy_of_place() const {
     for (const OtherEnergy& energy : energies_)
         if (energy.largest) sum += energy.largest(effects_, scene_.box);
     return sum;
+}
+
+/// The energy of a mass of 1 with the velocity by which images beyond the seam of sheared sides
+/// move. Crossings of the seam are rounded like it, however slow discs are.
+double StateCheck::energy_of_flow() const {
+    const double speed = effects_.are_sheared() ? scene_.effects.shear * scene_.box.y : 0;
+    return speed * speed / 2;
 }
 
 double StateCheck::other_energy(const DiscState& seen, double spin) const {

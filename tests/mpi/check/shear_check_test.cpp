@@ -15,8 +15,8 @@ using namespace carrom::test;
 
 namespace {
 
-TestScene sheared_gas() {
-    TestScene scene = gas(60, 0.4, 0.3, 64);
+TestScene sheared_gas(double speed = 0.3) {
+    TestScene scene = gas(60, 0.4, speed, 64);
     const Boundary periodic{BoundaryKind::periodic, 1, 0, 0},
         sliding{BoundaryKind::sheared, 1, 0, 0};
     scene.setting.effects.boundaries = {periodic, periodic, sliding, sliding};
@@ -70,6 +70,13 @@ TEST_CASE("check: nothing is wrong between sheared sides") {
         scene.setting.effects.species = {{20, 1, 5}, {40, 0.7, 0.3}};
         CHECK(failure_with(scene, method, 1, world).empty());
     }
+}
+
+TEST_CASE("check: discs may be far slower than images between sheared sides") {
+    const Communicator world = Communicator::world();
+    for (const Method method : both)
+        for (const double speed : {1e-2, 1e-4, 1e-6})
+            CHECK(failure_with(sheared_gas(speed), method, 1, world).empty());
 }
 
 TEST_CASE("check: energy that is not the work of images is found") {
