@@ -124,11 +124,6 @@ GridGeometry make_sparse_geometry(const Extent& extent, Axis axis, double reach,
 }
 
 template <class Places>
-CellGrid::Cell CellGrid::cell_at(const Places& places, const DiscState& disc) const {
-    return CellFinder<Places>{places, geometry_, anchor_}.cell_of(disc);
-}
-
-template <class Places>
 [[gnu::always_inline]] inline void CellGrid::place(const Places& places, float* flight,
                                                    std::size_t length,
                                                    const DiscState& disc) const {
@@ -226,9 +221,10 @@ template <class Places>
 void CellGrid::add_halo(const Places& places, std::span<const DiscState> halo, int n_threads) {
     halo_.begin(halo.size(), geometry_.n_columns);
     if (halo.empty()) return;
+    const CellFinder<Places> finder{places, geometry_, anchor_};
 #pragma omp parallel for num_threads(n_threads) schedule(static)
     for (std::size_t i = 0; i < halo.size(); ++i) {
-        const Cell cell = cell_at(places, halo[i]);
+        const Cell cell = finder.cell_of(halo[i]);
         halo_.set_cell(i, cell.column, cell.row);
     }
     halo_.sort(rows(), n_threads);

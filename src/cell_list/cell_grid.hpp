@@ -240,7 +240,6 @@ private:
     void sort(const Places& places, std::span<DiscState> own, int n_threads,
               const Companions& companions);
     void sort_columns(SideColumns& columns, Lent order, int n_threads) const;
-    template <class Places> Cell cell_at(const Places& places, const DiscState& disc) const;
     template <class Places>
     void add_halo(const Places& places, std::span<const DiscState> halo, int n_threads);
     template <class Places>

@@ -76,8 +76,8 @@ private:
     struct Known {
         DiscState disc;
         double spin = 0;
-        std::int64_t free_from =
-            0; ///< end of the last micro-step with a collision, or start of the check
+        /// End of the last micro-step with a collision, or start of the check
+        std::int64_t free_from = 0;
         std::uint64_t walls = 0, pairs = 0; ///< collisions of the disc since the last inspection
         std::uint64_t departures = 0;       ///< departures, which are included in `walls`
         double wall_impulse = 0;            ///< total impulse from walls
@@ -109,6 +109,7 @@ private:
     double from_departure(const DiscState& disc) const;
     /// How often the disc has returned into the box since the last inspection.
     double returns_of(std::size_t i) const;
+    bool have_any_moved() const;
     /// Whether the disc has departed or returned since the last inspection, or was outside before.
     bool was_outside(std::size_t i) const {
         return known_[i].departures > 0 || before_[i].disc.has_departed() ||

@@ -108,9 +108,6 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
     const double bound = energy_bound + energy_bound_per_collision *
                                             (2 * static_cast<double>(n_pair_collisions_) / n);
     const bool sways = effects_.acceleration().sways();
-    std::size_t n_moved = 0; // number of discs that departed or returned
-    for (std::size_t i = 0; i < known_.size(); ++i)
-        if (known_[i].departures > 0 || returns_of(i) > 0) ++n_moved;
     const double energy = energy_of(own, sways);
     double expected = energy_, scale = energy_, allowed = bound * energy_;
     if (scene_.effects.are_any()) {
@@ -135,12 +132,20 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
         allowed = bound * scale + n * k * k * communicator_.max(gain) + k * k * work_of_walls();
         energy_ = sways ? energy_of(own) : energy;
     }
-    if (have_open_sides_ && communicator_.any(n_moved > 0)) return {};
+    if (have_open_sides_ && have_any_moved()) return {};
     const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
     if (!(scale > 0) || drift <= allowed || known_.empty() || std::isinf(expected)) return {};
     // No single disc is the cause, so the lowest disc that collided is reported.
     return {Invariant::energy, 0, mine.empty() ? first_id_ : mine.front().disc, drift / scale,
             allowed / scale};
+}
+
+/// Whether any disc has departed or come in since the last inspection. **Collective.**
+bool StateCheck::have_any_moved() const {
+    bool is_any = false;
+    for (std::size_t i = 0; i < known_.size(); ++i)
+        is_any = is_any || known_[i].departures > 0 || returns_of(i) > 0;
+    return communicator_.any(is_any);
 }
 
 /// A disc's energy before and after the step, with the energy that effects may have added.

@@ -14,8 +14,8 @@
 namespace carrom {
 
 struct Frame {
-    bool is_moving =
-        false; ///< whether stored states differ from states in the box: by motion, clock or image
+    /// Whether stored states differ from states in the box: by motion, clock or image
+    bool is_moving = false;
     double x = 0, y = 0;   ///< position of the frame's origin in the box
     double vx = 0, vy = 0; ///< the frame's velocity, per micro-step
     double slowing = 1;    ///< rate of the frame's clock relative to the box's

@@ -136,7 +136,7 @@ public:
 
     /// `effects` have times in micro-steps.
     GrowingBodies(double radius, const Effects& effects, SpeciesView species)
-        : radius_(radius), rate_(effects.rate_of_radii()), species_(species) {}
+        : radius_(radius), rate_(effects.growth), species_(species) {}
 
     CARROM_DEVICE void begin_interval(std::int64_t n) {
         at_sync_ = size_ * (1 + rate_ * static_cast<double>(n));

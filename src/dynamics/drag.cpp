@@ -15,8 +15,8 @@ double short_integral(double z) {
     return sum;
 }
 
-constexpr int most_halvings =
-    2100; ///< enough halvings to bring the product of the two largest doubles below 1/2
+/// Enough halvings to bring the product of the two largest doubles below 1/2
+constexpr int most_halvings = 2100;
 
 /// Halves a time until the series converges, and gives the clock and the slowing at the halved
 /// time. If the time or the rate is infinite, the results are NaN.

@@ -359,8 +359,6 @@ struct Effects {
     double flow_at(double y, const Box& box) const {
         return are_sheared() ? shear * (y - box.y / 2) : 0;
     }
-    /// The rate at which radii grow between collisions, as a share of the radii at the start.
-    double rate_of_radii() const { return growth; }
     /// The factor by which radii have grown from the scene's start to `time`.
     double size_at(double time) const { return 1 + growth * time; }
     /// Takes radii that have grown by the factor `size` as the new radii at the start.

@@ -14,7 +14,7 @@ namespace carrom {
 template <class Make> auto with_dynamics_of(const SceneParameters& scene, const Make& make) {
     const Effects& effects = scene.effects;
     const bool has_species = !effects.species.empty();
-    const bool radii_change = effects.rate_of_radii() != 0 || effects.barostat.is_on();
+    const bool radii_change = effects.growth != 0 || effects.barostat.is_on();
     if (radii_change) return make.template operator()<GrowingDynamics>();
     if (effects.are_sheared()) return make.template operator()<ShearedDynamics>();
     if (effects.are_periodic())

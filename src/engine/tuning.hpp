@@ -20,8 +20,8 @@ struct Tuning {
     std::optional<int> ranks_across;   ///< ranks that share a strip and cut it across
     /// Syncs between two changes of the cuts; 0 never changes the first cuts
     std::int64_t rebalance_every = 1;
-    double rebalance_above =
-        1.05; ///< tolerated ratio of the largest to the mean load; 0 changes the cuts every time
+    /// Tolerated ratio of the largest to the mean load; 0 changes the cuts every time
+    double rebalance_above = 1.05;
     bool ends_jams = true; ///< false for repeated steps, which are known to end without a jam
 };
 

@@ -60,8 +60,8 @@ double reach_of(const WindowNeeds& needs, double duration, double speed);
 struct WindowChoice {
     int n_micro = 1;
     int n_parts = 1;
-    double usual_speed =
-        0; ///< the speed that cells allow for; the few faster discs have their own searches
+    /// The speed that cells allow for; the few faster discs have their own searches
+    double usual_speed = 0;
 };
 WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<double> wanted);
 

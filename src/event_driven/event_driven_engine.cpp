@@ -44,7 +44,7 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
                                  block_tuning.parts_sizes)),
       policy_(window_setting(tuning_, block_tuning, communicator_)),
       first_packing_(scene.packing()),
-      jam_watch_({scene.effects.rate_of_radii() / static_cast<double>(scene.micro_steps),
+      jam_watch_({scene.effects.growth / static_cast<double>(scene.micro_steps),
                   static_cast<double>(scene.sync_every),
                   static_cast<double>(scene.steps) * static_cast<double>(scene.micro_steps),
                   static_cast<double>(scene.n_discs)}) {

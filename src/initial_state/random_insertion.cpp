@@ -23,8 +23,8 @@ namespace carrom {
 
 namespace {
 
-constexpr std::uint64_t most_idle_rounds =
-    10000; ///< insertion starts again after this many rounds that place no disc
+/// Insertion starts again after this many rounds that place no disc
+constexpr std::uint64_t most_idle_rounds = 10000;
 constexpr std::uint64_t most_starts = 10;
 
 /// While a larger share of proposals is accepted, rounds are judged one by one.

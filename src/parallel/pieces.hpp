@@ -102,8 +102,8 @@ public:
 
 private:
     static constexpr std::uint64_t rounds_per_exchange = 8;
-    static constexpr std::size_t records_ahead =
-        64; ///< prefetched, because the records are scattered in memory
+    /// Prefetched, because the records are scattered in memory
+    static constexpr std::size_t records_ahead = 64;
 
     void sort_by_piece() {
         first_in_order_.assign(pieces_.count() + 1, 0);

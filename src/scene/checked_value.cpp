@@ -262,6 +262,11 @@ private:
                                                          fmt::format("{}: {}", name, field.name),
                                                          found->second.line);
                 all.insert(all.end(), numbers.begin(), numbers.end());
+                // NaN stands for a number that is missing.
+                if (field.fallback &&
+                    std::ranges::any_of(numbers, [](double x) { return std::isnan(x); }))
+                    refuse_at(found->second.line,
+                              fmt::format("{}: {} must be a number, not nan", name, field.name));
             } else if (field.fallback) {
                 all.insert(all.end(), field.most, *field.fallback);
             } else {

@@ -36,11 +36,12 @@ bool is_species_row(double number, std::size_t n_rows) {
     return number >= 1 && number <= static_cast<double>(n_rows) && number == std::floor(number);
 }
 
-std::string problem_of_contact_numbers(const Numbers& row, std::size_t first,
+std::string problem_of_contact_numbers(const Numbers& row, std::size_t begin,
                                        std::string_view why_smooth) {
     bool is_any = false;
+    std::size_t next = begin;
     for (const ContactLimits& one : all_limits) {
-        const std::size_t place = first++;
+        const std::size_t place = next++;
         if (!is_given(row, place)) continue;
         is_any = true;
         if (!why_smooth.empty() && one.name != "restitution")
@@ -49,6 +50,9 @@ std::string problem_of_contact_numbers(const Numbers& row, std::size_t first,
             return fmt::format("its {} must be from {} to {}, not {}", one.name, one.low, one.high,
                                row[place]);
     }
+    constexpr std::size_t tangential = 1, friction = 2;
+    if (is_any && is_given(row, begin + friction) && row[begin + tangential] == -1)
+        return "friction has no meaning with tangential_restitution = -1";
     if (is_any) return {};
     return "it gives no number; it takes restitution, and friction and tangential_restitution of "
            "surfaces that rub";

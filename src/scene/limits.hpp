@@ -14,23 +14,23 @@ namespace carrom {
 inline constexpr double smallest_length = 0x1p-230;
 inline constexpr double smallest_size = 0x1p-250; ///< the smallest positive speed
 inline constexpr double largest_size = 0x1p+250;
-inline constexpr std::uint64_t largest_count =
-    0xFFFFFFFEu; ///< indices have 32 bits, and one value means "none"
+/// Indices have 32 bits, and one value means "none"
+inline constexpr std::uint64_t largest_count = 0xFFFFFFFEu;
 /// Step numbers up to this are exact in a double
 inline constexpr std::int64_t largest_steps = std::int64_t{1} << 53;
-inline constexpr double largest_packing =
-    0.9069; ///< just above pi / (2 sqrt 3), the densest packing of the plane
+/// Just above pi / (2 sqrt 3), the densest packing of the plane
+inline constexpr double largest_packing = 0.9069;
 /// Above about 0.54 random insertion takes too long
 inline constexpr double largest_random_packing = 0.5;
-inline constexpr std::int64_t longest_single_sync =
-    4096; ///< largest number of micro-steps in single precision: floats resolve 1/2048 of each
+/// Largest number of micro-steps in single precision: floats resolve 1/2048 of each
+inline constexpr std::int64_t longest_single_sync = 4096;
 inline constexpr double smallest_single_size = 0x1p-40,
                         largest_single_size = 0x1p+40; ///< fourth powers of such sizes are floats
-inline constexpr double largest_box_in_radii =
-    1e6; ///< largest ratio L / r: beyond it the rounding of L exceeds the wall band 1e-8 r
+/// Largest ratio L / r: beyond it the rounding of L exceeds the wall band 1e-8 r
+inline constexpr double largest_box_in_radii = 1e6;
 inline constexpr double longest_drag = 4; ///< limit of drag's rate times the time between syncs
-inline constexpr double most_crossings =
-    0x1p40; ///< limit of crossings in a micro-step; beyond it all collisions have equal times
+/// Limit of crossings in a micro-step; beyond it all collisions have equal times
+inline constexpr double most_crossings = 0x1p40;
 
 /// The largest sum of the radii of a fixed body and a disc, relative to a periodic box, so that a
 /// disc touches only the nearest images of a body.

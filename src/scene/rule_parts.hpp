@@ -25,7 +25,7 @@ inline bool has_effects(const SceneParameters& s) { return s.effects.are_any() |
 /// The missing condition, after the words "has no meaning".
 inline constexpr const char* no_obstacles =
     "without 'effects.obstacles.discs', 'segments', 'arcs', 'polygons' or a 'box.shape'";
-inline bool has_growing_discs(const SceneParameters& s) { return s.effects.rate_of_radii() != 0; }
+inline bool has_growing_discs(const SceneParameters& s) { return s.effects.growth != 0; }
 inline bool has_barostat(const SceneParameters& s) { return s.effects.barostat.is_on(); }
 inline bool is_periodic_all_round(const SceneParameters& s) {
     return s.effects.is_periodic_x() && s.effects.is_periodic_y();

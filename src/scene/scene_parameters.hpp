@@ -192,8 +192,8 @@ struct StopConditions {
 struct SceneParameters {
     std::string name; ///< path of the file, or "standard input" for `-`
     std::string text; ///< text of the input without lines of discs, for checkpoints
-    std::int64_t lines_before_discs =
-        0;                              ///< number of lines of legacy text before its list of discs
+    /// Number of lines of legacy text before its list of discs
+    std::int64_t lines_before_discs = 0;
     bool discs_follow = false;          ///< legacy text continues with lines of discs
     std::vector<std::string> overrides; ///< settings `key=value` on top of the text
 

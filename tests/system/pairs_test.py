@@ -169,6 +169,8 @@ class Pairs(ProgramTest):
                 ("{species = [1, 2]}", "it gives no number"),
                 ("{species = [1, 2], restitution = 1.5}", "must be from 0 to 1, not 1.5"),
                 ("{species = [1, 2], friction = 1}", "without effects.contact.kind = \"rough\""),
+                ("{species = [1, 2], restitution = 0.5, friction = nan}",
+                 "friction must be a number, not nan"),
                 ("{restitution = 1}", "needs species = [i, j]"),
                 ("{species = [1, 2], restitution = 1}, {species = [2, 1], restitution = 1}",
                  "row 2 of 'effects.contact.pairs': row 1 has this pair already")):

@@ -228,6 +228,10 @@ class SurfaceContacts(ProgramTest):
             ("{species = 2, tangential_restitution = 2}", "must be from -1 to 1, not 2"),
             ("{species = 2, friction = 1}",
              "friction has no meaning without a tangential_restitution above -1"),
+            ("{species = 2, tangential_restitution = -1, friction = 1}",
+             "friction has no meaning with tangential_restitution = -1"),
+            ("{species = 2, restitution = nan, friction = 1}",
+             "restitution must be a number, not nan"),
             ("{restitution = 1}", "needs species"),
             ("{species = 2, restitution = 1}, {species = 2, restitution = 0}",
              "row 2 of 'box.bottom.contacts': row 1 has this species already")))
@@ -240,6 +244,13 @@ class SurfaceContacts(ProgramTest):
             self.run_program(1, "run", self.write("scene.toml", text), "--set", f"box.{more}",
                              "--set", "box.bottom.temperature=1" if says else "time.steps=2",
                              code=2 if says else 0, says=says or ())
+        species = "[{count = 1, radius = 1}, {count = 1, radius = 1}]"
+        for shape in ("round", "stadium"):
+            text = (f"[box]\nsize = 20\nshape = \"{shape}\"\nbottom.contacts = [{{species = 1, "
+                    "restitution = 0.5}]\n[discs]\nlist = [[8, 10, 0, 0], [12, 10, 0, 0]]\n"
+                    f"species = {species}\n[time]\nsteps = 1\n")
+            self.run_program(1, "run", self.write("shape.toml", text), code=2,
+                             says="sides that are not plain walls")
         equal = self.write("equal.toml", "[box]\nsize = 20\n[discs]\ncount = 3\nradius = 1\n"
                            "[time]\nsteps = 1\n[effects.obstacles]\ndiscs = [[10, 10, 1]]\n"
                            "contacts = [{species = 1, restitution = 0.5}]\n")

@@ -61,7 +61,7 @@ std::string field(double number) { return std::isfinite(number) ? fmt::format("{
 struct AveragedColumn {
     std::string name, path;
 };
-std::vector<AveragedColumn> averaged_columns() {
+std::vector<AveragedColumn> list_averaged_columns() {
     std::vector<AveragedColumn> columns = {
         {"temperature", "/temperature"},
         {"pressure", "/pressure"},
@@ -78,6 +78,11 @@ std::vector<AveragedColumn> averaged_columns() {
     };
     for (const std::string name : OrderWatch::order_names)
         columns.push_back({name, "/watched/" + name});
+    return columns;
+}
+
+const std::vector<AveragedColumn>& averaged_columns() {
+    static const std::vector<AveragedColumn> columns = list_averaged_columns();
     return columns;
 }
 

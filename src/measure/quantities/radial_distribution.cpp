@@ -185,7 +185,7 @@ MeasuredQuantity radial_distribution_quantity() {
                         .is_broken =
                             [](const SceneParameters& s) {
                                 return measures(s, "radial_distribution") &&
-                                       s.effects.rate_of_radii() != 0 &&
+                                       s.effects.growth != 0 &&
                                        !(s.effects.is_periodic_x() && s.effects.is_periodic_y());
                             }},
                        {.one = "\"radial_distribution\"",

@@ -17,23 +17,21 @@ namespace {
 constexpr double approach = 10; ///< collisions of a disc before the measurement of a trial begins
 constexpr double certainty = 2; ///< standard errors that are added to a measured error
 constexpr double most_collisions = 4e6; ///< number of pair collisions in a trial
-constexpr double least_accuracy = 4 * certainty /
-                                  2000; ///< sqrt(4e6): the most that a trial resolves
+/// The best accuracy that a trial resolves: sqrt(4e6) is 2000
+constexpr double least_accuracy = 4 * certainty / 2000;
 /// The least number of collisions of a disc in a trial, because errors in dense gases appear late
 constexpr double per_disc = 100;
-constexpr double fewest_collisions = 2e4; ///< pair collisions; shorter trials cannot be timed ...
-constexpr double long_enough =
-    2e4; ///< ... unless the trial has at least this many disc-steps or steps
+/// Trials of fewer pair collisions cannot be timed, unless they have so many disc-steps or steps.
+constexpr double fewest_collisions = 2e4;
+constexpr double long_enough = 2e4;
 constexpr double long_enough_steps = 1e3;
-constexpr double long_trial =
-    0.02; ///< seconds after which a setting may be dropped before its trial ends ...
-constexpr double timed_enough =
-    0.2; ///< ... and after which it may count as slow, because starting takes time, too
-constexpr double steady =
-    1.2; ///< overlaps are not steady if they grow by more than this between stretches
-constexpr std::array<int, 5> stretches = {1, 1, 2, 4,
-                                          /// The stretches, in sixteenths of a trial
-                                          8};
+/// Seconds after which a setting may be dropped before its trial ends, and after which it may count
+/// as slow. The latter is longer, because starting takes time, too.
+constexpr double long_trial = 0.02, timed_enough = 0.2;
+/// Overlaps are not steady if they grow by more than this between stretches
+constexpr double steady = 1.2;
+/// The stretches of a trial, in sixteenths of it
+constexpr std::array<int, 5> stretches = {1, 1, 2, 4, 8};
 constexpr std::int64_t most_micro_steps = 1 << 20;
 
 struct Choice {
