@@ -330,8 +330,9 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() co
             Dynamics::is_for_study
                 ? "it has no room to move, or the scene's precision and arithmetic do not tell "
                   "when it moves"
-                : "it has no room to move, or is so fast that steps should be shorter; where a "
-                  "surface slides, try: a restitution or a tangential_restitution below 1 there");
+                : "it has no room to move, is so fast that steps should be shorter, or lies at "
+                  "rest (try a longer effects.contact.contact_time); where a surface slides, try "
+                  "a restitution or a tangential_restitution below 1 there");
         break;
     }
     if (communicator_.any(!text.empty()) && jam_watch_.is_on()) refuse_jam();

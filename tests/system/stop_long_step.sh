@@ -12,7 +12,7 @@ placed=(--set discs.packing=0.5 --steps 10)
 compressed=(--set discs.count=2000 --set discs.packing=0.8 --set discs.generator=compressed
             --set discs.growth_rate=1e-6 --steps 10)
 heap=("$CARROM_SOURCE_DIR/inputs/rain.toml" --quiet --set output.folder=kept
-      --set effects.contact.contact_time=1e-12)
+      --set effects.contact.contact_time=1e-8)
 
 # heeds_signals PROGRAM: waits until the program catches TERM (bit 14)
 heeds_signals() {

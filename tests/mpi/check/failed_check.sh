@@ -33,7 +33,7 @@ for method in time-stepped event-driven; do
         complain 'no spin of disc 5'
     # Discs 5 and 9 are of rows 1 and 2 there, and of rows 5 and 8 here.
     for line in '{species = [5, 8], restitution = 0.75, tangential_restitution = 0.125, fric' \
-        '{species = 8, restitution = 0.25, tangential_restitution = -1, friction = 0},'; do
+        '{species = 8, restitution = 0.25, tangential_restitution = 0.75, friction = 0.125},'; do
         [ $method = time-stepped ] || grep -qF "$line" check_step_2_disc_5.toml ||
             complain "no '$line' in the scene of the neighbourhood"
     done

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
             scene.effects.contact = {ContactKind::rough, 0.9, 0.002, 0.5, 0.25, 0.5};
             scene.effects.contact.rows = {{9, 0}, {30, 1}};
             scene.effects.contact.pairs = {{1, 2, 0.75, 0.125, 0.375}, {1, 1, 0.5, 0.5, 0.5}};
-            scene.effects.surface_contacts.rows[1] = {{2, 0.25, -1, 0}};
+            scene.effects.surface_contacts.rows[1] = {{2, 0.25, 0.75, 0.125}};
             scene.effects.boundaries[3] = {BoundaryKind::thermal, 1, 2, 0};
             scene.effects.thermal_seed = 77;
         }

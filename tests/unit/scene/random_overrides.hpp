@@ -147,6 +147,51 @@ inline void add_quantities_and_periods(Draw& draw, Texts& texts) {
                       "box.bottom.kind=sheared", "box.top.kind=sheared", "effects.shear.rate=0.1"});
 }
 
+inline const std::string measured = "output.measurements.quantities=";
+
+/// Settings with which keys that begin with a name have a meaning.
+struct Companions {
+    std::string_view begin;
+    Texts texts;
+};
+inline const Companions companions[] = {
+    {"output.measurements.largest_distance", {measured + "[\"radial_distribution\"]"}},
+    {"output.measurements.largest_velocity", {measured + "[\"velocities\"]"}},
+    {"output.measurements.profile_s",
+     {measured + "[\"profiles\"]", "output.measurements.profile_columns=1",
+      "output.measurements.profile_rows=1", two_species}},
+    {"discs.radius.largest",
+     {"discs.count=20", "discs.radius.mean=1", "discs.radius.polydispersity=0.1",
+      "discs.radius.largest=1.25"}},
+    {"effects.obstacles.friction",
+     {"effects.obstacles.discs=[[50, 50, 3]]", "effects.obstacles.tangential_restitution=0.5"}},
+    {"discs.columns", {"discs.generator=\"file\"", "discs.file=\"a\""}},
+    {"effects.swap", {"effects.swap.rounds=2", two_species}},
+    {"effects.thermostat.strength", {"effects.thermostat.kind=kicks"}},
+    {"effects.field.file", {"effects.field.kind=grid", "effects.field.amplitude=0.01"}},
+    {"effects.field.values", {"effects.field.kind=grid", "effects.field.amplitude=0.01"}},
+    {"box.left.speed", {"box.left.kind=moving"}},
+    {"box.right.speed", {"box.right.kind=moving"}},
+    {"box.bottom.speed", {"box.bottom.kind=moving"}},
+    {"box.top.speed", {"box.top.kind=moving"}}};
+
+/// A short scene with a key of `companions`; empty for other keys.
+inline Texts scene_with_companions(Draw& draw, const Key& key) {
+    for (const Companions& one : companions) {
+        if (!key.name.starts_with(one.begin)) continue;
+        Texts texts = one.texts;
+        if (texts.back().starts_with(key.name)) return texts;
+        if (texts.back() != two_species)
+            texts.insert(texts.end(), {"discs.count=20", "discs.radius=1"});
+        if (key.name.starts_with("output."))
+            texts.insert(texts.end(), {"output.folder=a", "output.measurements.every_steps=1"});
+        texts.push_back("time.sync_every=1");
+        texts.push_back(key.name + '=' + (key.has_rows() ? draw.rows(key.name) : draw.value(key)));
+        return texts;
+    }
+    return {};
+}
+
 /// A short scene with a key that only few scenes may have; empty for other keys.
 inline Texts scene_with(Draw& draw, const Key& key) {
     if (key.name.starts_with("time.") && !key.has_rows()) // a scene without effects
@@ -158,14 +203,14 @@ inline Texts scene_with(Draw& draw, const Key& key) {
                 key.name + "=[{species = 2, restitution = 0." + std::to_string(1 + draw.below(9)) +
                     "}, {species = 1, tangential_restitution = 0.5, friction = 0.25}]"};
     const std::string end = ".inlet.species";
-    if (!key.name.ends_with(end)) return {};
+    if (!key.name.ends_with(end)) return scene_with_companions(draw, key);
     const std::string side = key.name.substr(0, key.name.size() - end.size());
     return {two_species, side + ".kind=open", side + ".inlet.rate=0.1",
             side + ".inlet.temperature=0.01", key.name + "=1"};
 }
 
-/// Settings with one of the ways to make discs, features that need several keys, and about one
-/// other key in eight. Most values are valid or nearly so.
+/// Settings with one of the ways to make discs, features that need several keys, the wanted key,
+/// and about one other key in 32 (in 64 beside a wanted key). Most values are valid or nearly so.
 inline Texts random_overrides(Draw& draw, const Key* wanted = nullptr) {
     if (Texts texts = wanted ? scene_with(draw, *wanted) : Texts(); !texts.empty()) return texts;
     Texts texts = {"time.method=event-driven"};
@@ -207,8 +252,9 @@ inline Texts random_overrides(Draw& draw, const Key* wanted = nullptr) {
     add_mixtures(draw, texts);
     if (draw.below(4) == 0) texts.push_back("time.arithmetic=naive");
     add_quantities_and_periods(draw, texts);
+    const std::size_t one_in = wanted ? 64 : 32;
     for (const Key& key : keys()) {
-        if (key.name == "box.size" || (&key != wanted && draw.below(8) != 0)) continue;
+        if (key.name == "box.size" || (&key != wanted && draw.below(one_in) != 0)) continue;
         if (std::ranges::find(source, key.name) != std::end(source)) continue;
         if (is_found_later(key)) continue;
         texts.push_back(key.name + '=' + (key.has_rows() ? draw.rows(key.name) : draw.value(key)));
