@@ -26,7 +26,8 @@ suffix=
 [ "$share" = 1/1 ] || suffix=-${share/\//-of-}
 mkdir -p "$folder"
 
-# study TABLE N PACKING Z OPTION... Where shares have been run, there is nothing left to do.
+# study TABLE N PACKING Z OPTION...: makes a table unless it is there. With several cores it does
+# nothing, because each core runs a share of all tables.
 study() {
     [ "$cores" = 1 ] || return 0
     local table=$folder/$1-$2-$3$suffix.csv n=$2 packing=$3 z=$4
@@ -58,7 +59,7 @@ study error 1024 0.1 1.236 --arithmetic default --starts 8 --collisions 100
 study error 1024 0.3 2.063 --arithmetic default --starts 8 --collisions 100
 study error 1024 0.5 4.10 --arithmetic default --starts 8 --collisions 100
 study error 1024 0.7 10.31 --arithmetic default --starts 8 --collisions 100
-# And for a gas in which a micro-step costs little more than its discs do.
+# The same for a large gas, in which the fixed cost of a micro-step is small.
 study large 16384 0.1 1.236 --arithmetic default --starts 3 --collisions 100 --repetitions 1
 study large 16384 0.3 2.063 --arithmetic default --starts 3 --collisions 100 --repetitions 1
 study large 16384 0.5 4.10 --arithmetic default --starts 3 --collisions 100 --repetitions 1
@@ -73,7 +74,7 @@ for gas in '0.1 1.236' '0.01 1.0204' '0.001 1.002'; do
     study dilute 16384 "$packing" "$z" --arithmetic default --starts 3 --collisions 40 \
         --repetitions 1
 done
-# Everything: K, both rules, both precisions, all formulas.
+# All settings: K, both methods, both precisions, both formulas.
 study arithmetic 1024 0.3 2.063 --starts 4 --collisions 50 --repetitions 2
 study arithmetic 1024 0.7 10.31 --starts 4 --collisions 50 --repetitions 2
 # Cost against N.

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The program on a processor that this machine does not have: builds it with a cross compiler, runs
-# scenes under QEMU's emulation, and compares their hashes with those of x86-64.
+# Tests the program on a processor that this machine does not have: builds it with a cross compiler,
+# runs scenes under QEMU's emulation, and compares their hashes with those of x86-64.
 #
 #   job_scripts/emulated.sh aarch64        also ppc64le, and riscv64 from Debian 13 on
 #
@@ -37,8 +37,8 @@ libraries=(libc6-dev libstdc++-12-dev libmpich-dev libhdf5-mpich-dev libfmt-dev 
            libcli11-dev nlohmann-json3-dev librandom123-dev libhwy-dev libxxhash-dev catch2)
 case $suite in bookworm) ;; trixie) libraries[1]=libstdc++-14-dev ;; *) unset 'libraries[1]' ;; esac
 
-# cross_build: the program, and the fingerprint of random scenes. Programs are those of this
-# machine, all else is looked for among the foreign libraries.
+# cross_build: builds the program and the fingerprint of random scenes. CMake finds programs on this
+# machine, and everything else among the foreign libraries.
 cross_build() {
     local place=$system/usr/lib/$triple
     export PKG_CONFIG_LIBDIR=$place/pkgconfig:$system/usr/share/pkgconfig
@@ -65,7 +65,7 @@ END
     build_targets carrom $([ "$FINGERPRINT" = no ] || echo stability_hashes)
 }
 
-# wrap PROGRAM: a script of that name that runs it under emulation
+# wrap PROGRAM: makes a script of this name that runs the program under emulation
 wrap() {
     mkdir -p "$(dirname "$emulated/$1")"
     printf '#!/bin/sh\nexec %s -L %s %s "$@"\n' "$emulator" "$system" "$build/$1" >"$emulated/$1"

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the Slurm scripts share: modules, how ranks are started and bound, rows of tables. It ends a
-# script that Slurm does not run, so scripts source it before they use variables of Slurm.
+# Functions that the Slurm scripts share: they load modules, start and bind ranks, and write rows of
+# tables. This file ends a script that Slurm does not run, so scripts source it before they use
+# variables of Slurm.
 #
-# Slurm runs a copy of the script from another folder. Paths begin where it was submitted: at the
-# checkout's top.
+# Slurm runs a copy of the script from another folder. Paths are relative to the folder of
+# submission, which is the checkout's top.
 
 say() { printf '%s\n' "$*" >&2; }
 die() { say "${SLURM_JOB_NAME:-$(basename "$0")}: $*"; exit 2; }
@@ -12,7 +13,7 @@ die() { say "${SLURM_JOB_NAME:-$(basename "$0")}: $*"; exit 2; }
     "./job_scripts/run_local.sh runs without Slurm"
 source job_scripts/mpi.sh
 
-# load_modules: those of MODULES
+# load_modules: loads the modules that MODULES names
 load_modules() {
     [ -n "$MODULES" ] || return 0
     set +u # module systems use variables that are not set
@@ -46,10 +47,10 @@ launch_with() {
     say "$(date '+%F %T') job $SLURM_JOB_ID on $SLURM_JOB_NODELIST: ${launch[*]}"
 }
 
-# report_value FILE KEY: a number or text of a report.
+# report_value FILE KEY: prints a number or text of a report.
 report_value() { sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$1"; }
 
-# add_row TABLE REPORT: what a scaling study is about, as a line of CSV.
+# add_row TABLE REPORT: appends a run of a scaling study to the table, as a line of CSV.
 add_row() {
     local row key
     [ -s "$1" ] || echo 'ranks,threads,n_discs,steps,wall_seconds,ns_per_disc_step,state_hash' \

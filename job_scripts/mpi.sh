@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# How each MPI library wants its ranks started. To be sourced by setup.sh and launch.sh.
+# How ranks are started with each MPI library. To be sourced by setup.sh and launch.sh.
 
-# mpi_library LAUNCHER: openmpi, mpich (and what is made from it), or unknown
+# mpi_library LAUNCHER: prints openmpi, mpich (also for libraries that derive from it) or unknown
 mpi_library() {
     case $("$1" --version 2>&1 </dev/null) in
         *'Open MPI'* | *OpenRTE* | *PRRTE*) echo openmpi ;;
@@ -10,8 +10,8 @@ mpi_library() {
     esac
 }
 
-# bind_to_cores LAUNCHER THREADS: the launcher's words for ranks that have THREADS cores each to
-# themselves
+# bind_to_cores LAUNCHER THREADS: prints the launcher's options that bind each rank to THREADS cores
+# of its own
 bind_to_cores() {
     case $(mpi_library "$1") in
         openmpi) echo "--map-by slot:PE=$2" ;;
@@ -19,8 +19,9 @@ bind_to_cores() {
     esac
 }
 
-# srun_plugin PROGRAM: what `srun --mpi` takes for the MPI library that the program names. The
-# program can be a script that starts another one, as a wheel has it, so it is asked itself.
+# srun_plugin PROGRAM: prints the value of `srun --mpi` for the program's MPI library. The program
+# itself prints the name of the library, because PROGRAM can be a script that starts another
+# program, as in a wheel.
 srun_plugin() {
     case $("$1" --version 2>/dev/null </dev/null | grep '^MPI ') in
         *'CRAY MPICH'*) echo cray_shasta ;;
@@ -29,18 +30,18 @@ srun_plugin() {
     esac
 }
 
-# cores: those that this process may use; nproc by itself takes OMP_NUM_THREADS for their number
+# cores: prints how many cores this process may use; nproc alone would print OMP_NUM_THREADS
 cores() { env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc; }
 
-# whole_cores: as `cores`, but two hardware threads of one core count once
+# whole_cores: prints the same, but counts the hardware threads of a core once
 whole_cores() {
     local whole
     whole=$(lscpu -p=core,socket 2>/dev/null | grep -v '^#' | sort -u | wc -l) || whole=0
     if [ "$whole" -ge 1 ] && [ "$whole" -lt "$(cores)" ]; then echo "$whole"; else cores; fi
 }
 
-# use_mpi_settings WORKERS: exports what mpi_settings.txt says for so many threads of all ranks
-# together
+# use_mpi_settings WORKERS: exports the settings of mpi_settings.txt for WORKERS threads of all
+# ranks together
 use_mpi_settings() {
     local when setting name
     while read -r when setting; do

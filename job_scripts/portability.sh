@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# README's two commands on another system: makes it from nothing in a folder, clones this checkout
+# Tests README's two commands on another system: makes that system in a folder, clones this checkout
 # into it, runs the commands there, and compares the hashes of all scenes with the committed ones.
 #
 #   job_scripts/portability.sh bookworm            Debian 12 with Open MPI 4
@@ -25,7 +25,8 @@ top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 say() { printf '%s\n' "$*" >&2; }
 die() { say "$(basename "$0"): $*"; exit 1; }
 
-# host_mirror SUITE: where apt takes this machine's own system from, if it is of the same family
+# host_mirror SUITE: prints the mirror that apt uses on this machine, if the system is of the same
+# family
 host_mirror() {
     local family=debian
     case $1 in jammy | noble | oracular | plucky | questing) family=ubuntu ;; esac
@@ -37,11 +38,12 @@ host_mirror() {
     )
 }
 
-# make_system: a minimal Debian or Ubuntu in $folder, with what a shell on it would have
+# make_system: makes a minimal Debian or Ubuntu in $folder
 make_system() {
     [ ! -e "$folder/usr/bin/apt-get" ] || return 0
     local start=$SECONDS script=()
-    # An older debootstrap does not know the name, but it makes all releases of Ubuntu alike.
+    # An older debootstrap has no script for a new release, but the script is the same for all
+    # releases of Ubuntu.
     [[ $mirror != *ubuntu* || -e /usr/share/debootstrap/scripts/$suite ]] || script=(gutsy)
     say "making $suite in $folder from $mirror"
     mkdir -p "$folder"
@@ -55,7 +57,8 @@ make_system() {
     say "$suite is there after $((SECONDS - start)) s"
 }
 
-# in_system WORD...: a command in the clone, with nothing of this machine's environment but proxies
+# in_system WORD...: runs a command in the clone. Of this machine's environment it keeps only
+# proxies and the variables of CMake and ccache.
 in_system() {
     local kept=() name
     for name in http_proxy https_proxy no_proxy; do
@@ -67,12 +70,13 @@ in_system() {
         "${kept[@]}" sh -c 'cd /srv/carrom && exec "$@"' sh "$@" </dev/null
 }
 
-# with_compiler PACKAGE: the program as another compiler builds it, and the hashes of all scenes
+# with_compiler PACKAGE: builds the program with another compiler, and compares the hashes of all
+# scenes
 with_compiler() {
     local version=${1##*-} needed=("$1") build=/srv/carrom/build-$1 names
     case $1 in
         clang-*)
-            needed+=("libomp-$version-dev") # those of two versions exclude each other
+            needed+=("libomp-$version-dev") # two versions exclude each other
             names=("CC=$1" "CXX=clang++-$version")
             ;;
         *) names=("CC=gcc-$version" "CXX=$1") ;;
@@ -84,7 +88,7 @@ with_compiler() {
         in_system env FINGERPRINT=no tests/stability/scene_hashes.sh "$build" --compare
 }
 
-# stage NAME WORD...: a command of this check, and how long it takes
+# stage NAME WORD...: runs a command of this check, and prints how long it takes
 n_failures=0
 stage() {
     local name=$1 start=$SECONDS code=0
@@ -130,7 +134,7 @@ mkdir -p "$(dirname "$table")"
 build=build${mpi:+-$mpi}
 stage 'first command' in_system ./job_scripts/run_local.sh inputs/gas.toml
 [ "${TESTS:-}" = none ] || stage 'second command' in_system ./job_scripts/test_local.sh ${TESTS:-}
-# The fingerprint is that of a program of the tests.
+# A program of the tests makes the fingerprint, so it is left out without tests.
 [ "${TESTS:-}" = none ] && fingerprint=no || fingerprint=yes
 stage 'hashes as everywhere' in_system env FINGERPRINT=$fingerprint TABLE=/srv/carrom/table.csv \
     tests/stability/scene_hashes.sh "$build" --compare

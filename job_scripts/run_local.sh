@@ -29,7 +29,8 @@ for number in "${RANKS:=$(cores)}" "$OMP_NUM_THREADS"; do
 done
 
 install_packages
-# The program alone. A build folder that has the tests keeps them: test_local.sh uses the same.
+# Builds the program alone. A build folder with tests keeps them, because test_local.sh uses the
+# same folder.
 if [ -e "$build/CMakeCache.txt" ]; then configure; else configure -DCARROM_TESTS=OFF; fi
 build_targets carrom libcarrom # all that `cmake --install` installs
 

@@ -39,7 +39,7 @@ install_packages "${test_packages[@]}"
 install_optional "${sanitizer_packages[@]}"
 n_failures=0
 
-# find_tool NAME...: the first one there is
+# find_tool NAME...: prints the first of these tools that is installed
 find_tool() {
     local name
     for name; do command -v "$name" && return; done
@@ -66,7 +66,7 @@ minutes=${SANITIZE_MINUTES:-90}
 [ $is_short = no ] || minutes=${SANITIZE_MINUTES:-10}
 log_folder=$build/sanitize
 mkdir -p "$log_folder"
-# try NAME WORD...: a command that must succeed within so many minutes
+# try NAME WORD...: runs a command, which must succeed within $minutes minutes
 try() {
     local name=$1 start=$SECONDS code=0 log
     log=$log_folder/$(tr -cs 'A-Za-z0-9\n' _ <<<"$name").log
@@ -81,8 +81,8 @@ try() {
     [ $code -eq 0 ] || { tail -n 60 "$log" >&2; n_failures=$((n_failures + 1)); }
 }
 use_mpi_settings $(($(cores) + 1))
-# MPI libraries keep some memory to the end. HDF5 asks for absurd amounts of memory where a file's
-# metadata has been forged, and copes with getting none.
+# MPI libraries keep some memory to the end. If a file's metadata are forged, HDF5 may request
+# absurd amounts of memory, and handles the refusal.
 export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1
 export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 
@@ -107,7 +107,7 @@ address() {
 
 scenes() { fuzz scene $([ $is_short = yes ] && echo 8 || echo 1200); }
 checkpoints() { fuzz checkpoint $([ $is_short = yes ] && echo 8 || echo 600); }
-# fuzz NAME SECONDS: new inputs are kept in build-fuzz/found_NAME
+# fuzz NAME SECONDS: runs a fuzzer, and keeps new inputs in build-fuzz/found_NAME
 fuzz() {
     local found=$top/build-fuzz/found_$1
     build_preset fuzz "$1_fuzzer"
@@ -126,11 +126,11 @@ files() {
 threads() {
     local archer hashes=$top/build-tsan/tests/stability_hashes settings programs=()
     local tests=(--test-dir "$top/build-tsan" -R 'x 2 threads')
-    # That of the same compiler, where several are installed.
+    # Prefers the library of the same compiler, because several may be installed.
     archer=$(find "$(dirname "$(realpath "$(command -v "$cxx")")")/../lib" /usr/lib/*-linux-gnu \
         -name libarcher.so 2>/dev/null | head -n 1) || true
     [ -n "$archer" ] || { say "threads: left out, there is no libarcher.so; $remedy"; return; }
-    # Without archer the sanitizer does not know what OpenMP's barriers order. MPI is not
+    # Without archer the sanitizer ignores the order that OpenMP's barriers impose. MPI is not
     # instrumented.
     settings=(env OMP_TOOL_LIBRARIES="$archer" OMP_NUM_THREADS=2 CARROM_TEST_SECONDS=3600
               TSAN_OPTIONS=ignore_noninstrumented_modules=1:halt_on_error=1)

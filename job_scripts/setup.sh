@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What run_local.sh, test_local.sh and sanitize.sh share: packages, build, settings. To be sourced.
+# Functions that run_local.sh, test_local.sh and sanitize.sh share: they install packages, build,
+# and choose settings. To be sourced.
 #
-# Nothing is installed that is there already. Nothing outside the build folder is written otherwise.
-# Variables that the user has set are kept: CMAKE_GENERATOR, those of mpi_settings.txt, and
+# Only missing packages are installed. Nothing else is written outside the build folder. Variables
+# that the user has set are kept: CMAKE_GENERATOR, those of mpi_settings.txt, and
 #   BUILD_DIR   the build folder; default build, or build-$MPI
 #   MPI         openmpi or mpich; default: the one whose HDF5 is installed, else openmpi
 
@@ -16,7 +17,7 @@ die() { say "$(basename "$0"): $*"; exit 1; }
 
 case ${MPI:-} in '' | openmpi | mpich) ;; *) die "MPI is openmpi or mpich, not $MPI" ;; esac
 
-# What the program needs, without the MPI library and its HDF5.
+# Packages that the program needs, without the MPI library and its HDF5.
 packages=(cmake ninja-build g++ pkg-config libfmt-dev libtomlplusplus-dev libcli11-dev
           nlohmann-json3-dev librandom123-dev libhwy-dev libxxhash-dev)
 openmpi_packages=(openmpi-bin libopenmpi-dev libhdf5-openmpi-dev)
@@ -24,13 +25,13 @@ mpich_packages=(mpich libmpich-dev libhdf5-mpich-dev)
 
 test_packages=(catch2 patch procps)
 # Some tests need these: a Slurm of their own, failing disks, Python programs that open our files, a
-# simulated cluster, micro-benchmarks. Such a test is skipped, with the reason, where they are not.
+# simulated cluster, micro-benchmarks. Without them such a test is skipped, and prints the reason.
 optional_test_packages=(slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge strace
                         python3-venv libsimgrid-dev libbenchmark-dev)
 
 sanitizer_packages=(clang libclang-rt-dev libomp-dev valgrind)
 
-# missing_packages PACKAGE...: those that are not installed
+# missing_packages PACKAGE...: prints the packages that are not installed
 missing_packages() {
     local package
     for package in "$@"; do
@@ -39,11 +40,11 @@ missing_packages() {
     done
 }
 
-# has_apt: false on a system without it, where the build itself reports what it does not find
+# has_apt: whether the system has apt. Without apt the build itself reports missing packages.
 has_apt() { command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; }
 
-# install PACKAGE...: false if some of them are missing and cannot be installed; they are in
-# `missing`
+# install PACKAGE...: installs missing packages. Fails if some of them cannot be installed;
+# `missing` lists them.
 missing=()
 install() {
     has_apt || return 0
@@ -51,7 +52,8 @@ install() {
     [ ${#missing[@]} -eq 0 ] || install_missing "${missing[@]}"
 }
 
-# mpi_library: the one that MPI names, or whose HDF5 is there, else Open MPI
+# mpi_library: prints the library that MPI names, else the one whose HDF5 is installed, else Open
+# MPI
 mpi_library() {
     if [ -z "${MPI:-}" ] && has_apt && [ -z "$(missing_packages libhdf5-mpich-dev)" ] &&
         [ -n "$(missing_packages libhdf5-openmpi-dev)" ]; then
@@ -65,7 +67,7 @@ mpi_packages() {
         printf '%s\n' "${openmpi_packages[@]}"
 }
 
-# install_packages [PACKAGE...]: what the program needs, and these
+# install_packages [PACKAGE...]: installs the packages that the program needs, and these
 install_packages() {
     has_apt || return 0
     local for_mpi
@@ -74,7 +76,7 @@ install_packages() {
         die "packages are missing; try: apt-get install ${missing[*]}"
 }
 
-# install_optional PACKAGE...: as many of them as this system has
+# install_optional PACKAGE...: installs those of the packages that this system offers
 install_optional() {
     local package
     install "$@" && return
@@ -83,7 +85,7 @@ install_optional() {
     [ ${#missing[@]} -eq 0 ] || say "left out, since these packages are missing: ${missing[*]}"
 }
 
-# install_missing PACKAGE...: false, with the reason printed, if that does not work
+# install_missing PACKAGE...: installs packages; if that fails, prints the reason and fails
 install_missing() {
     local as_root=()
     if [ "$(id -u)" -ne 0 ]; then
@@ -101,7 +103,7 @@ apt_get() {
         "$@" >&2 </dev/null
 }
 
-# debian_mirror: where apt takes this machine's own packages from, or MIRROR
+# debian_mirror: prints MIRROR, or else the mirror that apt uses on this machine
 debian_mirror() {
     local suite
     suite=$(source /etc/os-release && echo "$VERSION_CODENAME")
@@ -110,8 +112,9 @@ debian_mirror() {
         awk -v suite="$suite" '$1 == suite && $2 == "main" { print $3; exit }'
 }
 
-# unpack_debian FOLDER SUITE ARCHITECTURE PACKAGE...: these and all that they need, for compilers
-# and emulators. None of their scripts is run: that would take the system they are for. Needs root.
+# unpack_debian FOLDER SUITE ARCHITECTURE PACKAGE...: unpacks packages and all that they need, for
+# compilers and emulators. Scripts of packages are not run, because they need the system for which
+# they are made. Needs root.
 unpack_debian() {
     local folder=$1 suite=$2 architecture=$3 names package
     [ ! -e "$folder/unpacked" ] || return 0
@@ -126,14 +129,14 @@ unpack_debian() {
             tar -x --keep-directory-symlink --no-same-owner -C "$folder" || return 1
     done
     rm "$folder"/var/cache/apt/archives/*.deb
-    # Links to the top of that system would lead to this one.
+    # Absolute links would otherwise lead to files of this machine.
     find "$folder/usr" -type l -lname '/*' -printf '%l\0%p\0' |
         xargs -0 -r -n 2 sh -c 'ln -snf "$0$1" "$2"' "$folder"
     touch "$folder/unpacked"
 }
 
-# mpi_words: cmake's words for mpi_library, unless it is what cmake finds by itself. Debian has
-# several side by side, and an HDF5 for each: all parts of one build must be of the same.
+# mpi_words: prints cmake's options for mpi_library, unless cmake finds it by itself. Debian may
+# have several MPI libraries, and an HDF5 for each; all parts of a build must use the same one.
 mpi_words() {
     local library
     library=$(mpi_library)
@@ -145,8 +148,8 @@ mpi_words() {
         "-DHDF5_C_COMPILER_EXECUTABLE=$(command -v "h5pcc.$library")"
 }
 
-# configure WORD...: makes the build, or changes it by cmake's words. Several sources are compiled
-# as one: for those who build all, once.
+# configure WORD...: configures the build folder with these options of cmake. Several sources are
+# compiled as one (unity build), which is fastest if everything is built once.
 configure() {
     local words=()
     export CMAKE_GENERATOR=${CMAKE_GENERATOR:-Ninja}
@@ -155,13 +158,13 @@ configure() {
         die "cmake could not configure the build in $build"
 }
 
-# build_targets [TARGET...]: all, if none is named
+# build_targets [TARGET...]: builds these targets, or all
 build_targets() {
     cmake --build "$build" --parallel "$(cores)" ${1:+--target "$@"} >&2 </dev/null ||
         die "the build in $build failed"
 }
 
-# mpi_launcher FOLDER: the one that belongs to the build there
+# mpi_launcher FOLDER: prints the launcher that belongs to the build in FOLDER
 mpi_launcher() {
     local launcher
     launcher=$(sed -n 's/^MPIEXEC_EXECUTABLE:[A-Z]*=//p' "$1/CMakeCache.txt")

@@ -12,7 +12,7 @@
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${1:-$top/build-gpu}
-largest=${LARGEST:-10000000} # discs in the table of speeds
+largest=${LARGEST:-10000000} # largest number of discs in the table of speeds
 
 nvidia-smi --query-gpu=name,driver_version,memory.total --format=csv,noheader
 if [[ ! -x $build/tests/device_table ]]; then

@@ -69,7 +69,7 @@ public:
     void rearrange(std::initializer_list<std::span<DiscState>> arrays, SortMemory memory);
 
 private:
-    /// What a thread sorts: a share of the discs, and the cells in which nearly all of them lie.
+    /// The discs that a thread sorts, and the cells in which nearly all of them lie.
     struct Sorter {
         std::size_t first_disc = 0, end_disc = 0;
         std::uint32_t first_cell = 0, end_cell = 0;

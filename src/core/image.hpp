@@ -126,7 +126,7 @@ struct Periods {
     CARROM_DEVICE Shift between(const DiscState& p, const DiscState& q, double time) const {
         return are_shifted_alike(p, q) ? Shift{} : shifted_between(p, q, time);
     }
-    /// As between(), for boxes at rest: the shift along x.
+    /// The x component of between(), for boxes at rest.
     CARROM_DEVICE double x_between(const DiscState& p, const DiscState& q) const {
         return are_shifted_alike(p, q) ? 0 : (image_of(q).x - image_of(p).x) * x;
     }
@@ -140,7 +140,7 @@ struct Periods {
         const double at_rest = shifted_x(disc, time);
         return are_moving() ? moved(at_rest, disc, time) : at_rest;
     }
-    /// As x_of, for boxes at rest.
+    /// Like x_of, for boxes at rest.
     [[gnu::always_inline]] double x_at_rest(const DiscState& disc, double time) const {
         return is_unshifted(disc) ? disc.x_at(time) : shifted_x(disc, time);
     }

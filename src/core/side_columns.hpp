@@ -147,7 +147,7 @@ private:
     std::array<std::vector<double>, n_side_columns> values_;
 };
 
-/// The columns that collisions change under these dynamics, without numbers.
+/// Empty columns for the values that collisions change under these dynamics.
 template <class Dynamics> SideColumns side_columns_of(const Dynamics& dynamics) {
     SideColumns columns;
     if (dynamics.has_spin()) columns.add(SideColumn::spin);

@@ -200,11 +200,11 @@ private:
     Box box_;
     Periods periods_;
     DiscStates discs_;    ///< own discs, then the halo
-    SideColumns columns_; ///< numbers of the discs in `discs_`
+    SideColumns columns_; ///< side columns of the discs in `discs_`
     std::size_t n_own_ = 0;
     std::uint64_t n_total_, n_with_departed_;
     DiscStates departed_;          ///< departed discs, at the positions where they left
-    SideColumns departed_columns_; ///< numbers of the departed discs
+    SideColumns departed_columns_; ///< side columns of the departed discs
     std::vector<int> group_sizes_; ///< number of ranks in each strip
     Domains domains_,
         redistributed_domains_; ///< the present cuts, and the cuts at the last migration

@@ -24,7 +24,7 @@ double way_out(const ArcFlight& f, double reach, double wall) {
     const double speed = std::sqrt(a), most = speed * reach,
                  x = std::fabs(cross(f.dx, f.dy, f.wx, f.wy));
     const double square = (most - x) * (most + x);
-    // By rounding, the whole flight lies outside of the circle of radius `reach`.
+    // Rounding has put the whole flight outside of the circle of radius `reach`.
     if (!(square > 0)) return b < 0 && x < speed * wall ? -b / a : never;
     const double root = std::sqrt(square);
     return b < 0 ? (root - b) / a : (reach - distance) * (reach + distance) / (b + root);

@@ -26,7 +26,7 @@
 
 namespace carrom {
 
-/// The numbers of a disc that a side of the box needs, at a given time.
+/// The properties of a disc that a side of the box needs, at a given time.
 struct Body {
     double radius = 0, mass = 1;
     double outwards = 0; ///< how fast the surface moves out
@@ -44,7 +44,7 @@ concept Bodies = std::is_trivially_copyable_v<B> &&
                      // If discs collide thousands of times within this many micro-steps, the run
                      // ends as a collision cascade.
                      { B::cascade_interval } -> std::convertible_to<double>;
-                     changing.begin_interval(n);   // times count from micro-step n after this call
+                     changing.begin_interval(n);   // then times are relative to micro-step n
                      changing.look_up_in(species); // uses the radii and masses of this table
                      {
                          bodies.largest()

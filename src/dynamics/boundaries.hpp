@@ -33,7 +33,7 @@ public:
     /// `effects` have times in micro-steps; `radius` is the largest radius of a disc.
     Boundaries(const Box& box, double radius, const Effects& effects);
 
-    /// Starts an interval: from now on times count from micro-step `n` of the scene.
+    /// Starts an interval: from now on times are relative to micro-step `n` of the scene.
     void begin_interval(std::int64_t n);
     /// Positions of the walls at `time`, in the frame's coordinates.
     Extent extent_at(double time) const;

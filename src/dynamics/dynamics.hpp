@@ -64,7 +64,7 @@ public:
     /// The part of the dynamics that runs in the kernels of a GPU.
     const Base& motion() const { return *this; }
 
-    /// Starts an interval: from now on times count from micro-step `n` of the scene.
+    /// Starts an interval: from now on times are relative to micro-step `n` of the scene.
     void begin_interval(std::int64_t n) {
         space_.begin_interval(n);
         bodies_.begin_interval(n);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers of a scene's effects: everything beyond free flight, elastic pairs and four elastic
-// walls. law.hpp, bodies.hpp, boundaries.hpp, falling_frame.hpp, drag.hpp and fixed_bodies.hpp
-// describe what the effects do.
+// The parameters of a scene's effects: everything beyond free flight, elastic pairs and four
+// elastic walls. law.hpp, bodies.hpp, boundaries.hpp, falling_frame.hpp, drag.hpp and
+// fixed_bodies.hpp describe what the effects do.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@
 
 namespace carrom {
 
-/// What two touching discs do to each other.
+/// The law of contact of two discs.
 enum class ContactKind { elastic, none, restitution, rough };
 
 /// Whether two numbers of rows are equal. NaN stands for a number that a row does not give.
@@ -83,7 +83,7 @@ struct ContactEffect {
                                                  ///< tangential impulse is at most this times the
                                                  ///< normal one
     double inertia = 0.5;             ///< moment of inertia in m r^2; 0.5 for a uniform disc
-    std::vector<ContactPair> pairs{}; ///< rows of pairs with numbers of their own (pair_table.hpp)
+    std::vector<ContactPair> pairs{}; ///< rows of pairs with own coefficients (pair_table.hpp)
     /// Ids of each row of `discs.species`, ascending; empty without that key
     std::vector<SpeciesRow> rows{};
 

@@ -60,7 +60,7 @@ public:
     explicit FallingFrame(const Effects& effects)
         : acceleration_(effects.acceleration()), drag_(effects.drag), sway_(acceleration_) {}
 
-    /// Starts an interval: from now on times count from micro-step `n` of the scene.
+    /// Starts an interval: from now on times are relative to micro-step `n` of the scene.
     void begin_interval(double n) { sway_.begin_interval(n); }
 
     double clock_at(double micro_steps) const;

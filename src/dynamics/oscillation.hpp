@@ -38,7 +38,7 @@ public:
     double amplitude() const { return amplitude_; }
     double largest_speed() const { return amplitude_ * rate_; }
 
-    /// Starts an interval: from now on times count from `time` since the scene's start.
+    /// Starts an interval: from now on times are relative to `time` since the scene's start.
     void begin_interval(double time);
     WallMotion at(double time) const;
     /// The acceleration of a disc towards the wall at which it is: the larger of its values now and

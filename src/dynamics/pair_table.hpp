@@ -29,7 +29,7 @@ struct PairFactors {
         return {(1 + restitution) / 2, (1 + tangential_restitution) / 2 * (inertia / (1 + inertia)),
                 friction};
     }
-    /// The numbers of all pairs that no row names.
+    /// The factors of all pairs without a row of their own.
     static PairFactors common(const ContactEffect& contact) {
         return of(contact.restitution, contact.tangential_restitution, contact.friction,
                   contact.inertia);

@@ -36,7 +36,7 @@ concept Space = std::is_trivially_copyable_v<S> &&
                          std::int64_t n, double d, Axis axis) {
                     { S::is_periodic } -> std::convertible_to<bool>; // whether discs have images
                     { S::has_moving_images } -> std::convertible_to<bool>; // images have velocities
-                    changing.begin_interval(n); // times count from micro-step n after this call
+                    changing.begin_interval(n); // then times are relative to micro-step n
                     // see(p, q, dx, dy, time): the position of q relative to p at `time`, when
                     // (dx, dy) is the difference of their stored positions.
                     { space.see(p, p, d, d, d) } -> std::same_as<Encounter<double>>;

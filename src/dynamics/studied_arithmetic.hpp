@@ -42,7 +42,7 @@ public:
     using Real = Number;
     using State = RoundedState<Number>;
     static constexpr bool is_for_study = true;
-    /// If discs have no room to move, rounding advances their times now and then, so a collision
+    /// If discs have no room to move, rounding sometimes advances their times, so a collision
     /// cascade extends over a range of times.
     static constexpr double cascade_interval = 0x1p-3;
     static constexpr double time_rounding = is_single ? 0x1p-21 : 0x1p-50;

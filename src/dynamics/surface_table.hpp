@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How contacts with sides and obstacles depend on the species of the disc: numbers for some rows of
-// `discs.species`, and the common numbers of the surface for all other discs.
+// How contacts with sides and obstacles depend on the species of the disc: coefficients for some
+// rows of `discs.species`, and the common coefficients of the surface for all other discs.
 //
 // A disc's row follows from its id, as in pair_table.hpp. A surface without rows costs one test of
 // a pointer in a bounce.
@@ -16,7 +16,7 @@
 
 namespace carrom {
 
-/// The numbers of a surface for discs of one species.
+/// The coefficients of a surface for discs of one species.
 struct SurfaceNumbers {
     double restitution = 1;
     Surface surface{};
@@ -25,14 +25,15 @@ struct SurfaceNumbers {
     bool rubs() const { return surface.rubs(); }
 };
 
-/// The numbers of a side, or of the obstacles (SurfaceContacts), for discs that no row names.
+/// The coefficients of a side, or of the obstacles (SurfaceContacts), for discs without a row of
+/// their own.
 SurfaceNumbers common_numbers(const Effects& effects, std::size_t surface);
-/// The numbers for discs that `row` of this surface names.
+/// The coefficients for discs that `row` of this surface names.
 SurfaceNumbers numbers_of(const Effects& effects, std::size_t surface, const SurfaceContact& row);
 /// Whether the surface rubs discs of any species.
 bool does_rub(const Effects& effects, std::size_t surface);
 
-/// The numbers of one surface for all species; copies share their memory.
+/// The coefficients of one surface for all species; copies share their memory.
 class SurfaceTable {
 public:
     struct Factors {

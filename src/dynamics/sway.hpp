@@ -37,7 +37,8 @@ public:
 
     bool is_on() const { return rate_ != 0; }
     bool acts_along(std::size_t axis) const { return amplitudes_[axis] != 0; }
-    /// Starts an interval: the last sync is at `time` of the scene, and other times count from it.
+    /// Starts an interval: the last sync is at `time` of the scene, and other times are relative to
+    /// it.
     void begin_interval(double time);
     /// The motion since the sync; `time` is at most about an eighth of a period.
     Swayed at(std::size_t axis, double time) const;

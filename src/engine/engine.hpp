@@ -69,8 +69,8 @@ public:
     virtual std::span<const DiscState> own() const = 0;
     virtual std::span<const DiscState> departed()
         const = 0; ///< the discs of this rank that have left the box; own() does not contain them
-    virtual SideSpans side_columns() const { return {}; } ///< numbers of the discs in `own()`
-    /// Numbers of the discs in `departed()`.
+    virtual SideSpans side_columns() const { return {}; } ///< columns of the discs in `own()`
+    /// Side columns of the discs in `departed()`.
     virtual SideSpans departed_columns() const { return {}; }
     virtual const SpeciesTable& species_table() const = 0;
     /// The factor by which an effect at syncs has changed all radii of the table.

@@ -228,7 +228,7 @@ void measure_overlaps(const Population& population, const CellGrid& grid, double
     }
     totals.overlapping_pairs = communicator.sum(n_pairs);
     totals.deepest_overlap = communicator.max(deepest);
-    // Such pairs are rare. Ranks without any do not pay for a second pass.
+    // Touching pairs are rare, and ranks without any need no second pass.
     std::array<std::uint64_t, 3> counts{};
     if (n_touching > 0) counts = count_touching(pairs, population, grid, touching.tolerance);
     communicator.sum(counts);

@@ -378,7 +378,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     StressTerms stress_terms;       ///< terms that have not been added to the part's sums yet
     double bound_squared = 0;       ///< square of the speed bound
     float bound_lane_squared = 0;   ///< the square of a slightly smaller bound, in cells per window
-    double void_squared = 0;        ///< square of the disc speed that ends a run immediately
+    double void_squared = 0;        ///< squared disc speed above which `is_void` ends the run
     double too_fast = 0;            ///< the value for BlockOutcome::too_fast
     bool is_void = false;           ///< a disc is so fast that the window will be far shorter
     double largest_squared = 0;     ///< square of BlockOutcome::largest_speed

@@ -198,7 +198,7 @@ private:
     BlockWindow window_;
     std::vector<double> stops_;    ///< times inside the window at which its parts end
     std::size_t n_parts_done_ = 0; ///< number of parts that have been committed
-    BlockNotes notes_;             ///< what blocks record of this window
+    BlockNotes notes_;             ///< records of the blocks in this window
     bool is_alone_ = false; ///< whether a single run covers the whole box: one rank, few discs
     BoxCells box_cells_;    ///< cells for runs of the whole box
     int common_depth_ = 0;  ///< depth in reaches that the halos of all ranks have

@@ -40,8 +40,8 @@ struct Explanation {
 std::optional<Explanation> explain(const SharedState& state, std::int64_t micro_steps,
                                    const std::vector<GivenDisc>& given, DiscId wrong);
 
-/// Whether the plain rule leads in `micro_steps` from the state to `discs`, whose times count to
-/// `clock`.
+/// Whether a run of the plain rule from `state` gives `discs` after `micro_steps`. Positions of
+/// `discs` are compared at the time `clock` since the last sync.
 bool follows_rule(const SharedState& state, std::int64_t micro_steps,
                   const std::vector<DiscState>& discs, double clock);
 

@@ -73,7 +73,7 @@ struct CheckpointHeader {
 /// there is none. Called on rank 0.
 using DifferenceFrom = std::function<std::string(const CheckpointHeader& there)>;
 
-/// Settings for writing the numbers of discs.
+/// Settings for writing the data of discs.
 struct WriteSettings {
     int n_threads = 1;          ///< number of threads that pack; a further thread writes
     bool is_collective = false; ///< whether MPI-IO chooses ranks that write for all (aggregators)

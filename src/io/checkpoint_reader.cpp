@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // First rank 0 reads a file's metadata in a child process, because HDF5 may crash on forged
-// metadata. Then rank 0 checks all bytes except the numbers of discs by a checksum, so that HDF5
-// uses only checked bytes on all ranks. Each rank checks and reads its share of the numbers by
-// H5Dread through MPI-IO.
+// metadata. Then rank 0 checks all bytes except the data of discs by a checksum, so that HDF5 uses
+// only checked bytes on all ranks. Each rank checks and reads its share of these data by H5Dread
+// through MPI-IO.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,7 +59,7 @@ void check_header(const CheckpointHeader& header) {
     if (!is_sound) throw FileError("its numbers contradict each other");
 }
 
-/// The contents of a file, without the numbers of discs.
+/// The contents of a file, without the data of discs.
 struct Contents {
     CheckpointHeader header;
     Checksums sums;

@@ -173,7 +173,8 @@ void complete(const std::string& path, const StateSums& sums) {
     file.close("cannot be written");
     for (std::size_t k = 0; k < all.data.size(); ++k)
         all.data[k].checksum = sums[first_checksum + k];
-    // Those bytes are left out because HDF5 marks a file that is open for writing
+    // The file is closed while this sum is computed, because HDF5 marks a file that is open for
+    // writing
     all.others = checksum_of_others(path, all.left_out());
     file = h5::open_file(path, h5::Access::write);
     h5::overwrite(file.id(), checksums_path, all.text());

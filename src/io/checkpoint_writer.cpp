@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All ranks write the numbers of discs (checkpoint.hpp). The places of data sets in the file are
+// All ranks write the data of discs (checkpoint.hpp). The places of data sets in the file are
 // fixed, so writing never changes HDF5's metadata. Each rank's pieces begin at a page boundary,
 // because caches of different nodes are not coherent.
 //
 // For independent transfers only rank 0 opens the file by HDF5, to make and to complete it. HDF5
-// reports where the numbers are in the file, and ranks write them there. So only one rank writes
+// reports where the data are in the file, and ranks write them there. So only one rank writes
 // HDF5's mark of an open file, and no call waits for another rank: each rank detects its own
 // failure, and then all agree. With one handle for all ranks, HDF5 1.10 waits for ever if rank 0
 // cannot write that mark when all close the file. If there are many ranks, some of them

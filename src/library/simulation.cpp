@@ -23,8 +23,9 @@ namespace carrom {
 
 namespace {
 
-/// Steps between readings of images. Readings keep the list of crossings short: a sync adds at most
-/// one for each disc. By default syncs are 64 micro-steps apart.
+/// Steps between updates of image counts. An update empties the list of crossings of periodic
+/// sides, to which each sync adds at most one for each disc. By default syncs are 64 micro-steps
+/// apart.
 constexpr std::int64_t steps_between_readings = 64;
 
 /// Images can be counted only for periodic sides at rest.

@@ -128,11 +128,11 @@ void choose_settings() {
     // The daemon takes 0.4 s. Open MPI 5 and MPICH start none.
     if (has_launcher()) return;
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-    // Such processes would all make a folder of the same name for data shared with others, which
+    // Processes without a launcher would all make a folder of the same name for shared data, which
     // they do not need. If two start at the same time, one of them would fail.
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
-    // Such processes send no messages, so they need no fast network. Where its libraries are
-    // installed, initialising them takes 0.2 s.
+    // Processes without a launcher send no messages, so they need no fast network. Where its
+    // libraries are installed, initialising them takes 0.2 s.
     setenv("OMPI_MCA_pml", "ob1", 0);
 }
 

@@ -1,24 +1,26 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Build a wheel that holds the program and the extension of carrom.Simulation beside the Python
+# Builds a wheel that contains the program and the extension of carrom.Simulation beside the Python
 # package, for users without root.
 #
 #   src/python/wheel.sh [FOLDER]         puts the wheel into FOLDER; default: build-wheel/dist
 #   pip install FOLDER/carrom-*.whl      brings the program, and MPICH as the package `mpich`
 #
-# The variable PYTHONS names interpreters to build the extension for, in words; default: python3.9
-# to python3.14, as far as they are there with their headers. One of 3.12 or later serves all of
-# these, because it is built for Python's stable ABI. 3.9, 3.10 and 3.11 need one each: nanobind has
-# no stable ABI there. Where a Python has none, all but carrom.Simulation works.
+# The variable PYTHONS lists the interpreters for which the extension is built; default: those of
+# python3.9 to python3.14 that are installed with their headers. One extension serves all Pythons
+# from 3.12 on, because it is built for Python's stable ABI. 3.9, 3.10 and 3.11 need one extension
+# each, because nanobind has no stable ABI there. In a Python without an extension, everything
+# except carrom.Simulation works.
 #
-# The program is built against Debian's MPICH in build-wheel/, or in the folder BUILD_DIR; the
-# extension in a folder beside it, because it needs code that can be loaded anywhere. Both are
-# linked with the C library of Debian 11, so that it runs where that or a newer one is: the name of
-# the wheel says which. This needs root and debootstrap; without them the wheel wants a C library as
-# new as the one of this machine. HDF5 is linked into both, because as a shared library it
-# would bring libcurl and its thirty. The other libraries are put beside it, and the licences of all
-# of them go along. MPICH is not in the wheel: every MPICH since 3.1 has the same binary interface
-# under the name libmpi.so.12, so the program takes that of its environment.
+# The program is built against Debian's MPICH in build-wheel/, or in the folder BUILD_DIR. The
+# extension is built in a folder beside it, because it needs position-independent code. Both are
+# linked with the C library of Debian 11, so that they run with this version or a newer one; the
+# name of the wheel contains the version. This needs root and debootstrap; without them the wheel
+# needs a C library as new as the one of this machine. HDF5 is linked into both, because the shared
+# HDF5 needs libcurl and thirty more libraries. The other libraries are put beside the program,
+# together with the licences of all libraries. MPICH is not in the wheel: every MPICH since 3.1 has
+# the same binary interface under the name libmpi.so.12, so the program uses the MPICH of its
+# environment.
 set -euo pipefail
 MPI=mpich
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -31,7 +33,7 @@ extensions=$build-extension
 compiled_in=(libhdf5-mpich-dev libaec-dev zlib1g-dev libfmt-dev libtomlplusplus-dev libcli11-dev
              nlohmann-json3-dev librandom123-dev)
 
-# is_of_system NAME: whether the program takes a library from where it runs
+# is_of_system NAME: whether the program uses this library of the system on which it runs
 is_of_system() {
     [[ $1 =~ ^(libc|libm|libpthread|libdl|librt|ld-linux[-a-z0-9_]*|libmpich|libmpi)\.so ]]
 }
@@ -39,9 +41,9 @@ is_of_system() {
 # is_of_gcc PATH: whether a library belongs to the compiler, and so to a release of Debian
 is_of_gcc() { [[ $(basename "$1") =~ ^lib(gcc_s|gomp|stdc\+\+)\.so ]]; }
 
-# libraries_of FILE: the paths of those that a program or an extension brings into the wheel. What
-# MPICH alone needs comes with MPICH, so this follows the names that each file asks for, instead of
-# taking all that are loaded.
+# libraries_of FILE: prints the paths of the libraries that a program or an extension brings into
+# the wheel. Libraries that only MPICH needs come with MPICH, so this follows the names that each
+# file needs, instead of listing all loaded libraries.
 libraries_of() {
     local -A paths=() seen=()
     local queue=("$1") file name path
@@ -58,10 +60,10 @@ libraries_of() {
     done
 }
 
-# link_with_old_system: has cmake link the program with the C library of an older system. GCC's
-# library for C++ goes into the program, since that system has an older one. toml++ is compiled in,
-# and fmt is used from its headers, because Debian has both only for new C libraries. False if it
-# cannot be had.
+# link_with_old_system: makes cmake link the program with the C library of an older system. GCC's
+# library for C++ is linked into the program, because that system has an older one. toml++ is
+# compiled in, and fmt is used from its headers, because Debian has both only for new C libraries.
+# Fails if the older system cannot be installed.
 old_system=
 link_with_old_system() {
     local old=$build/old_system parts=$build/old_parts place
@@ -70,7 +72,8 @@ link_with_old_system() {
             libstdc++6 ||
         { say "left out: the C library of Debian 11; see $old.log"; return 1; }
     mkdir -p "$parts"
-    # What GCC's library takes from newer C libraries; 0 has counts of references be atomic.
+    # Symbols of newer C libraries that GCC's library uses. With the value 0, reference counts are
+    # atomic.
     gcc -O2 -fPIC -fvisibility=hidden -c -x c -o "$parts/newer.o" - <<'END'
 #include <sys/random.h>
 char __libc_single_threaded = 0;
@@ -92,20 +95,22 @@ END
     old_system=$old
 }
 
-# for_each_line COMMAND FILE...: what the command prints of each, every line once
+# for_each_line COMMAND FILE...: prints the lines that the command prints for any of the files, each
+# line once
 for_each_line() {
     local command=$1 file
     shift
     for file in "$@"; do "$command" "$file"; done | sort -u
 }
 
-# add_license PACKAGE FOLDER: what Debian says of the license of a package, once for each source
+# add_license PACKAGE FOLDER: copies Debian's text about the license of a package, once for each
+# source package
 add_license() {
     cp "/usr/share/doc/${1%:*}/copyright" "$2/$(dpkg-query -W -f '${source:Package}' "$1").txt"
 }
 
-# usable_pythons: those of PYTHONS that can build extensions, or the default; the first of 3.12 and
-# later alone
+# usable_pythons: prints those of PYTHONS, or of the default, that can build extensions; of 3.12 and
+# later only the first one
 usable_pythons() {
     local python version has_stable='' all=(python3.{9..14})
     for python in ${PYTHONS:-${all[*]}}; do
@@ -123,9 +128,10 @@ if (Path(sysconfig.get_path("include")) / "Python.h").exists() and sys.version_i
     done
 }
 
-# static_hdf5_for_libraries FOLDER: a copy of Debian's static HDF5 that shared libraries can hold.
-# It was compiled for programs, so its only fault is that it takes `stderr` and `stdout` from a
-# fixed place. Here it finds them under names of its own, in streams.o, which is linked beside it.
+# static_hdf5_for_libraries FOLDER: copies Debian's static HDF5 and changes it so that shared
+# libraries can contain it. It was compiled for programs, and its only problem is that it expects
+# `stderr` and `stdout` at fixed addresses. In the copy both have other names, which streams.o
+# defines.
 static_hdf5_for_libraries() {
     local library
     library=/usr/lib/$(gcc -print-multiarch)/libhdf5_mpich.a
@@ -143,7 +149,7 @@ END
     echo "add_link_options($1/streams.o -Wl,--exclude-libs,ALL)" >"$1/link.cmake"
 }
 
-# build_extensions WORD...: one for each usable Python, with cmake's words of the program
+# build_extensions WORD...: builds one for each usable Python, with the program's options of cmake
 build_extensions() {
     local parts=$build/extension_parts tools python pythons version
     local all=("$@")
@@ -187,7 +193,7 @@ bundle() {
             continue
         fi
         cp -L "$path" "$libraries/"
-        # Debian 12 links /lib to /usr/lib, and dpkg knows a file by one of the two names.
+        # Debian 12 links /lib to /usr/lib, and dpkg lists a file under one of the two names.
         package=$({ dpkg-query -S "$path" || dpkg-query -S "$(realpath "$path")" ||
             dpkg-query -S "/usr$path"; } 2>/dev/null | head -n 1 | sed 's/: .*//')
         add_license "$package" "$licenses"
@@ -201,7 +207,8 @@ bundle() {
     patchelf --replace-needed libmpich.so.12 libmpi.so.12 "$program" "${modules[@]}"
 }
 
-# stage FOLDER: the Python package with program and extensions inside, as a project of its own
+# stage FOLDER: makes a separate project of the Python package with the program and the extensions
+# inside
 stage() {
     local extension
     mkdir -p "$1"
@@ -232,7 +239,7 @@ path.write_text(text, encoding="utf-8")
 EDIT
 }
 
-# name_for_platform FROM TO: the wheel gets the name of the oldest C library that its files allow
+# name_for_platform FROM TO: gives the wheel the name of the oldest C library that its files allow
 name_for_platform() {
     local wheel platform version
     version=$(find "$build/stage/carrom" -type f \( -path '*/bin/*' -o -name '*.so*' \) \

@@ -28,7 +28,7 @@ enum class Kind {
     flag,
     text,
     choice, ///< one of the words of the key
-    words,  ///< an array of such words
+    words,  ///< an array of words of the key
     rows,   ///< an array of arrays of numbers
     tables  ///< an array of tables of numbers
 };

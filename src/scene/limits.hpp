@@ -26,7 +26,8 @@ inline constexpr double largest_random_packing = 0.5;
 inline constexpr std::int64_t longest_single_sync = 4096;
 inline constexpr double smallest_single_size = 0x1p-40,
                         largest_single_size = 0x1p+40; ///< fourth powers of such sizes are floats
-/// Largest ratio L / r: beyond it the rounding of L exceeds the wall band 1e-8 r
+/// Largest ratio L / r. There the rounding of a position, 1e-10 r, is a hundredth of the wall band
+/// 1e-8 r; in larger boxes positions would be too coarse for contacts with walls.
 inline constexpr double largest_box_in_radii = 1e6;
 inline constexpr double longest_drag = 4; ///< limit of drag's rate times the time between syncs
 /// Limit of crossings in a micro-step; beyond it all collisions have equal times

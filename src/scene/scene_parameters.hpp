@@ -233,7 +233,7 @@ struct SceneParameters {
     std::vector<FrozenDisc> frozen;
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
     std::vector<DiscColumn> disc_columns; ///< `discs.columns`; see columns_of_lines
-    FirstNumbers first_numbers;           ///< numbers for columns beside the states
+    FirstNumbers first_numbers;           ///< initial values of the side columns
 
     std::int64_t steps = 0;
     Method method = Method::event_driven; ///< legacy text is time-stepped

@@ -34,7 +34,7 @@ struct FileOfDiscs {
 /// The lines that a rank reads.
 struct ShareOfDiscs {
     Slab ids;                            ///< new ids
-    std::vector<std::uint64_t> departed; ///< as FileOfDiscs::departed
+    std::vector<std::uint64_t> departed; ///< see FileOfDiscs::departed
 };
 
 /// Positions keep the coordinates that the other run shows. If the scene has another `origin`, the

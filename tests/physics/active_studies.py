@@ -133,7 +133,7 @@ def separation(program, is_short):
     cells = round(size / 8)
     for peclet in (20, 120):
         diffusion, gamma = 1e-3, 0.25
-        thermal = diffusion / 3 # of places, as of a sphere
+        thermal = diffusion / 3 # diffusion of positions: D / 3, as for a sphere
         report = run(program, PERIODIC | EVENTS | LANGEVIN | {
             "box.size": size, "discs.count": count, "discs.radius": 0.5,
             "discs.generator": '"lattice"', "discs.temperature": gamma * thermal,
@@ -224,7 +224,8 @@ def coexistence(program, is_short):
         yield row | {"gas_below": CRITICAL, "dense_above": CRITICAL}
 
 
-# What makes the rows; the largest errors, over what is known, of a short and of the whole study.
+# For each study: the function that makes the rows, and the largest relative errors that are allowed
+# in a short and in the whole study.
 STUDIES = {"free": (free, 0.05, 0.01), "swim": (swim, 0.05, 0.02),
            "separation": (separation, math.inf, math.inf),
            "coexistence": (coexistence, math.inf, 0.2)}

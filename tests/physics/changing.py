@@ -87,7 +87,7 @@ steps = {steps}
 """, None
 
 
-# Scene and seeds; whether it is in equilibrium; the columns that must see what changes.
+# Scene and seeds; whether it is in equilibrium; the columns that must detect the change.
 SCENES = {
     "gas 0.3": (equilibrium(0.3, 400, 400, 4000), 64, True, ()),
     "gas 0.5": (equilibrium(0.5, 400, 400, 4000), 64, True, ()),

@@ -90,7 +90,7 @@ def viscosity(program, is_short):
     Enskog's viscosity is an approximation: the limit is held to it with an error of 1 %.
     """
     count, kt = (500, 0.01) if is_short else (2000, 0.01)
-    collisions = 1_500 if is_short else 4_000 # of each disc
+    collisions = 1_500 if is_short else 4_000 # collisions per disc
     for packing in (0.3,) if is_short else (0.1, 0.2, 0.3, 0.4, 0.5):
         known = enskog_viscosity(packing)
         relaxation = (1 + 2 * packing * contact_value(packing)) * 4 * packing / math.pi / known
@@ -136,7 +136,7 @@ def granular(program, is_short):
     kt, packing, count = 0.01, 0.000625, 500 if is_short else 2000
     often = frequency(packing) * math.sqrt(kt)
     for e in (0.8,) if is_short else BOLTZMANN:
-        # Temperatures that little is lost of change slowly, so averages take longer.
+        # If collisions lose little energy, the temperature changes slowly, so averages take longer.
         collisions = 150 if is_short else 8_000 if e > 0.9 else 2_000
         steps = round(collisions / often)
         ratio, ratio_error, rate_over_nu, rate_error = BOLTZMANN[e]
@@ -201,7 +201,7 @@ def heated(program, is_short):
             found.append((report["temperature"]["value"] / kt,
                           cumulant(report["measurements"]["speeds"])))
         (ratio, ratio_error), (value, error) = map(literature.mean, zip(*found))
-        # Theory is that of the first order in a2, and of a thin gas.
+        # The theory is of first order in a2, and for a dilute gas.
         yield {"restitution": e, "packing": packing, "kT": ratio, "kT_error": ratio_error,
                "kT_known": 1.0, "kT_known_error": 0.003, "a2": value, "a2_error": error,
                "a2_known": a2, "a2_known_error": 0.0015}
@@ -214,7 +214,7 @@ def langevin(program, is_short):
     where these are rare. The first order of Enskog's theory is 2 % off without friction.
     """
     kt, gamma, count = 0.01, 0.01, 1000 if is_short else 2000
-    window = 2_000 # 20 times the memory
+    window = 2_000 # 20 relaxation times of the velocity
     windows = 2 if is_short else 6
     for packing in (0.0001,) if is_short else (0.0001, 0.003, 0.01, 0.03):
         nu = frequency(packing) * math.sqrt(kt)
@@ -263,7 +263,7 @@ def places(program, is_short):
             continue
         squares = [(g - plain) ** 2 / (error ** 2 + plain_error ** 2)
                    for (g, error), (plain, plain_error) in zip(tables[kind], tables["none"])
-                   if error > 0 and plain_error > 0] # discs do not overlap
+                   if error > 0 and plain_error > 0] # empty bins below contact have no error
         yield {"thermostat": kind, "packing": packing, "collisions": report["pair_collisions"],
                "kT": report["temperature"]["value"] / kt,
                "kT_error": report["temperature"]["error"] / kt,
@@ -309,7 +309,8 @@ def channel(program, is_short):
     for flow in ("couette", "poiseuille"):
         for packing in (0.2,) if is_short else (0.1, 0.2, 0.3):
             sliding, gravity = (0.05, 0) if flow == "couette" else (0, 5e-5)
-            # The thinnest gas has the largest viscosity over its weight, and bends least.
+            # The thinnest gas has the largest viscosity relative to its weight, so its profile is
+            # the straightest.
             is_straight = flow == "poiseuille" and packing < 0.15
             blocks = 6 if is_short else 36 if is_straight else 12
             wall = {f"box.{side}.{key}": value for side, sign in (("bottom", -1), ("top", 1))
@@ -370,7 +371,8 @@ def sizes(program, is_short):
                "Z_error": found["error"], "Z_known": known, "Z_known_error": 0.0025 * known}
 
 
-# What makes the rows; the largest errors, over what is known, of a short and of the whole study.
+# For each study: the function that makes the rows, and the largest relative errors that are allowed
+# in a short and in the whole study.
 STUDIES = {"viscosity": (viscosity, 0.05, 0.02), "granular": (granular, 0.05, 0.01),
            "heated": (heated, math.inf, math.inf), "langevin": (langevin, 0.05, 0.02),
            "places": (places, 0.5, 0.5), "channel": (channel, 0.2, 0.03),

@@ -111,7 +111,7 @@ def balance(program, is_short):
         known = means(profile_of(count, energy, strip))
         first, last = (100, 200) if is_short else (150, 450)
         if packing < 0.25:
-            last *= 3 # few discs are soon computed
+            last *= 3 # few discs take little time
         found = []
         for seed in (1, 2):
             report = run(program, settings | EVENTS | {
@@ -123,7 +123,7 @@ def balance(program, is_short):
                 "output.measurements.from_step": first, "output.measurements.every_steps": 1,
                 "output.measurements.bins": bins})
             packings = [AREA * n for n in report["measurements"][table]["density"]]
-            if name == "sine": # it is the same backwards about its valley
+            if name == "sine": # the density is symmetric about its minimum
                 packings = packings[bins // 4:] + packings[:bins // 4]
             found += [packings, packings[::-1]]
         if name == "sine":
@@ -134,7 +134,8 @@ def balance(program, is_short):
         slope = [k for k in range(bins) if 0.2 < (known[k] - min(known)) / steps < 0.8]
         row = {"field": name, "packing": packing, "discs": count}
         for place, strips in (("densest", densest), ("slopes", slope)):
-            # Both halves of a seed have each pair of strips: two seeds are two numbers.
+            # The mirror image of a run has the same sums over these strips, so two seeds give two
+            # values.
             values = [statistics.fmean(found[2 * seed][k] for k in strips) for seed in (0, 1)]
             expected = statistics.fmean(known[k] for k in strips)
             halves = [statistics.fmean(found[i][k] for k in strips if k < bins / 2)
@@ -152,7 +153,7 @@ def splitting(program, is_short):
     change the phase at which it is, so that it wanders.
     """
     for turn in (0.2, 0.4) if is_short else (0.025, 0.05, 0.1, 0.2, 0.4):
-        rate = turn / 16 # a sync in 16 micro-steps of one step
+        rate = turn / 16 # a sync each 16 micro-steps; a micro-step is one step
         shares = []
         for steps in range(64, 64 * 9, 64):
             report = run(program, EVENTS | {
@@ -198,7 +199,8 @@ def drift(program, is_short):
                "change": energy / known - 1}
 
 
-# What makes the rows; the largest errors, over what is known, of a short and of the whole study.
+# For each study: the function that makes the rows, and the largest relative errors that are allowed
+# in a short and in the whole study.
 STUDIES = {"balance": (balance, 0.05, 0.02), "splitting": (splitting, 1, 1),
            "drift": (drift, 1, 1)}
 

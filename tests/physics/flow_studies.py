@@ -48,7 +48,8 @@ def behind_shock(density, kt, radius, speed):
     for _ in range(200):
         shock = (low + high) / 2
         n, t, p = state(shock)
-        # Too slow a shock asks for a dense gas, whose own pressure is more than the jump gives.
+        # A shock that is too slow would need a gas so dense that its pressure exceeds the pressure
+        # behind the jump.
         low, high = (shock, high) if pressure(n, t) > p else (low, shock)
     return *state(shock), shock
 
@@ -239,7 +240,7 @@ def dense(program, is_short):
 def pole(first, last):
     """Where the inverse viscosity of two packings points to zero."""
     (a, v, v_error), (b, w, w_error) = first, last
-    slope = (b - a) / (w - v) ** 2 # of the pole by v is w times it, by w v times it
+    slope = (b - a) / (w - v) ** 2 # d(pole)/dv is w * slope, d(pole)/dw is -v * slope
     return {"pole": (w * b - v * a) / (w - v),
             "pole_error": slope * math.hypot(w * v_error, v * w_error),
             "pole_known": 0.7, "pole_known_error": 0.005}

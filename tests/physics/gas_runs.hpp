@@ -24,7 +24,7 @@ void run_until(DiscSystem& system, double n_collisions, std::span<StepAction* co
 /// In units of disc diameter and thermal speed sqrt(kT).
 struct GasProperties {
     Estimate wall_factor;   ///< compressibility factor P L^2 / (N kT), from walls alone
-    Estimate virial_factor; ///< the same from walls and pairs
+    Estimate virial_factor; ///< the same factor from the virial of walls and pairs
     Estimate frequency;     ///< nu sigma / sqrt(kT / m)
     Estimate kurtosis;
 };

@@ -28,8 +28,8 @@ import tempfile
 
 INPUTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "inputs")
 
-# Kolafa and Rottner's equation for densities up to 0.90: powers of eta / (1 - eta). It has their
-# own data to 1e-5 of Z, and the virial series.
+# Kolafa and Rottner's equation for densities up to 0.90: powers of eta / (1 - eta). It agrees with
+# their data to 1e-5 of Z, and with the virial series.
 KOLAFA_ROTTNER = {
     0: 1.0, 1: 2.0, 2: 1.12801775, 3: 0.00181895291, 4: -0.0526134737, 5: 0.0504960168,
     6: -0.0325537792, 7: 0.0134578632, 8: 0.00140888182, 9: -0.00834273601, 10: 0.00694127367,
@@ -39,7 +39,7 @@ KOLAFA_ROTTNER_ERROR = 1e-5
 # Packing fraction: P* and its standard error, of 870 discs in a periodic square.
 LI = {0.67: (7.986779, 0.000025), 0.68: (8.513249, 0.000037), 0.69: (8.969898, 0.000075)}
 LI_REPLICAS = {0.67: 7, 0.68: 1, 0.69: 1}
-# The same of 128^2 discs, and densities of which they give none.
+# The same for 128^2 discs, and densities for which they give no value.
 MELTING = {0.69: ("", ""), 0.698: (9.17405, 0.00049), 0.704: (9.18558, 0.00080),
            0.708: (9.17630, 0.00074), 0.712: (9.16554, 0.00090), 0.716: (9.1587, 0.0010),
            0.72: ("", ""), 0.73: ("", "")}
@@ -159,7 +159,7 @@ def first_decay(table, up_to=10):
     sums = [0.0] * 5
     for t, c in list(zip(table["steps"], table["velocities"]))[1:up_to + 1]:
         y = math.log(c / table["velocities"][0])
-        # Each point counts by 1 / t, as its square error grows with t.
+        # Each point has the weight 1 / t, because its squared error grows with t.
         for k, term in enumerate((t, t ** 2, t ** 3, y, y * t)):
             sums[k] += term
     m11, m12, m22, b1, b2 = sums
@@ -226,7 +226,7 @@ def melting(program, is_short):
     known = {0.68: LI[0.68], 0.73: ("", "")} if is_short else MELTING
     discs, steps = (1024, 900) if is_short else (128 ** 2, 80_000)
     for packing, (pressure_known, known_error) in known.items():
-        spacing = math.sqrt(math.pi / (2 * math.sqrt(3) * packing)) # of a lattice of diameter 1
+        spacing = math.sqrt(math.pi / (2 * math.sqrt(3) * packing)) # lattice spacing for diameter 1
         width = math.sqrt(discs) * spacing
         report = gas(program, discs, packing, steps // 2, steps, discs__generator="triangular",
                      box__size=f"[{width!r}, {width * math.sqrt(3) / 2!r}]",
@@ -273,7 +273,7 @@ def at_pressure(program, packing, known, is_short, **settings):
     for name in ("packing", "compressibility"):
         row[name], row[f"{name}_error"] = joined(name)
         row[f"{name}_known"], row[f"{name}_known_error"] = known.get(name, ("", ""))
-    # The mean virial is p <V> - 1, for each disc.
+    # The mean virial is p <V> - kT. Z is this virial per disc and kT; `volume` is <V> per disc.
     row["Z"], row["Z_error"] = joined("Z")
     volume, error = joined("volume")
     return row | {"Z_known": pressure * volume - 1 / 870,
@@ -284,7 +284,7 @@ def liquid_at_pressure(program, packing, is_short):
     """At the P* of Li and others; means differ from the most likely volume by 1e-4 of it."""
     kappa = compressibility_of(packing)
     known = {"packing": (packing, 1e-4 * packing)}
-    if not is_short: # a short run sees a part of the fluctuations
+    if not is_short: # a short run has only a part of the fluctuations
         known["compressibility"] = (kappa, 0.02 * kappa)
     return at_pressure(program, packing, known, is_short, pressure=LI[packing][0], phase="liquid",
                        seeds=(4321, 1, 2, 3))
@@ -298,7 +298,7 @@ def solid_at_pressure(program, packing, is_short):
     early, steps = (500, 3_000) if is_short else (5_000, 40_000)
     found = gas(program, 870, packing, early, steps, **lattice)["compressibility"]
     per_factor = 4 / math.pi * packing
-    slope = 70 # of P* with the packing: 72 in the mean from 0.73 to 0.75
+    slope = 70 # dP* / d(packing), which is 72 on average from 0.73 to 0.75
     known = {"packing": (packing, per_factor * found["error"] / slope + 1e-4 * packing)}
     return at_pressure(program, packing, known, is_short, pressure=per_factor * found["value"],
                        phase="solid", **lattice)
@@ -312,7 +312,8 @@ def barostat(program, is_short):
         yield solid_at_pressure(program, packing, is_short)
 
 
-# What makes the rows; the largest errors, over what is known, of a short and of the whole study.
+# For each study: the function that makes the rows, and the largest relative errors that are allowed
+# in a short and in the whole study.
 STUDIES = {"pressure": (pressure, 2e-3, 1.5e-4), "li": (li, 2e-3, 3e-4),
            "enskog": (enskog, 0.02, 0.01), "haff": (haff, 0.02, 0.005),
            "melting": (melting, 5e-3, 2e-3), "barostat": (barostat, 0.5, 0.2)}

@@ -106,7 +106,8 @@ def stadium(program, is_short):
                "chi2_known_error": math.sqrt(2 / 26 / seeds)}
 
 
-# What makes the rows; the largest errors, over what is known, of a short and of the whole study.
+# For each study: the function that makes the rows, and the largest relative errors that are allowed
+# in a short and in the whole study.
 STUDIES = {"wall": (wall, 0.05, 0.01), "stadium": (stadium, 0.5, 0.2)}
 
 if __name__ == "__main__":

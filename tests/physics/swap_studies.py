@@ -22,8 +22,8 @@ import tempfile
 import literature
 from driven_studies import EVENTS, PERIODIC
 
-SMALLEST = 0.45 # of the largest diameter
-KINDS = 40      # of discs
+SMALLEST = 0.45 # relative to the largest diameter
+KINDS = 40      # number of kinds of discs
 
 
 def diameters():
@@ -127,7 +127,7 @@ def scatter(found, known):
     """The mean square of the differences of S(k) over their errors; for normal errors it is 1."""
     squares = [(value - known[name][0]) ** 2 / (error ** 2 + known[name][1] ** 2)
                for name, (value, error) in found.items()
-               if name.startswith("S_") and error > 0] # bins without wave vectors have none
+               if name.startswith("S_") and error > 0] # bins without wave vectors have no error
     return statistics.fmean(squares), math.sqrt(2 / len(squares))
 
 
@@ -149,7 +149,7 @@ def same(program, is_short):
             yield {"packing": packing, "quantity": name, "value": found[name][0],
                    "value_error": found[name][1], "value_known": known[name][0],
                    "value_known_error": known[name][1]}
-        if packing < 0.7: # equal discs would freeze above
+        if packing < 0.7: # above this packing equal discs would freeze
             z = santos(packing, count)
             yield {"packing": packing, "quantity": "Z_of_theory", "value": found["Z"][0],
                    "value_error": found["Z"][1], "value_known": z, "value_known_error": 0.0025 * z}

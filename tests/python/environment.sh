@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Python environments of tests, from PyPI, kept in a folder. To be sourced after common.sh, which
-# has set CARROM_SOURCE_DIR. Tests that run at once wait for each other while they install.
+# has set CARROM_SOURCE_DIR. Tests that run at the same time wait for each other while they install.
 
 skip_test() {
     printf 'skipped: %s\n' "$*"
     exit 77
 }
 
-# The package takes the program and the launcher from these.
+# The package finds the program and the launcher by these variables.
 export CARROM=$CARROM_PROGRAM CARROM_MPIEXEC OMP_NUM_THREADS=1 MPLBACKEND=Agg
 package=$CARROM_SOURCE_DIR/src/python
 
-# said: the last line of what a command has said
+# said [N]: prints the last line, or the last N lines, of a command's standard error
 said() { tail -n "${1:-1}" "$test_folder/err"; }
 
-# copy_package FOLDER: pip writes beside the sources, so it gets a copy, with a LICENSE of its own
-# in the place of the link
+# copy_package FOLDER: copies the package, because pip writes beside the sources. In the copy
+# LICENSE is a file, not a link.
 copy_package() {
     rm -rf "$1"
     mkdir -p "$1"
@@ -23,7 +23,7 @@ copy_package() {
         tar -C "$1" -xf -
 }
 
-# use_environment FOLDER: sets `python`; the environment lasts
+# use_environment FOLDER: sets `python`; the environment is kept for later tests
 use_environment() {
     mkdir -p "$1"
     exec 9>"$1.lock"
@@ -42,7 +42,7 @@ install() {
         --timeout 10 "$@" >"$test_folder/err" 2>&1
 }
 
-# has MODULE PACKAGE...: whether Python has the module, if need be from PyPI
+# has MODULE PACKAGE...: whether Python has the module; if not, installs the packages from PyPI
 has() {
     local module=$1
     shift
@@ -50,7 +50,7 @@ has() {
     install --only-binary :all: "$@" && "$python" -c "import $module" 2>/dev/null
 }
 
-# install_package: the package itself, without what it needs, as it is now
+# install_package: installs the package from the present sources, without its dependencies
 install_package() {
     copy_package "$test_folder/package"
     has setuptools setuptools wheel || skip_test "no setuptools: $(said)"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # The package's own tests, with the real freud, MDAnalysis, ASE, OVITO and gsd where PyPI has them;
-# then types and style. Argument: the folder of environments. With names of files of tests behind it
-# these are run alone, and need h5py, numpy and pytest only.
+# then types and style. Argument: the folder of environments. If names of test files follow, only
+# these are run, and need only h5py, numpy and pytest.
 source "$(dirname "$0")/../system/common.sh"
 source "$(dirname "$0")/environment.sh"
 
@@ -22,7 +22,7 @@ done
 install_package
 release_environment
 
-# The working folder is not the checkout's: what is tested is what pip has installed.
+# The working folder is not the checkout, so that the installed package is tested.
 export PYTHONDONTWRITEBYTECODE=1
 tests=$CARROM_SOURCE_DIR/tests/python/package
 chosen=("${@:2}")

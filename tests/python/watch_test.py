@@ -71,7 +71,7 @@ class ServerTest(unittest.TestCase):
                 self.assertEqual(about["room"], [0, -2, 40, 30])
                 self.assertEqual(about["shown"], 200)
                 x, y, _ = numbers.reshape(3, 200)
-                self.assertGreater(y.min() - 2, bottom + radius - 1e-4)  # counted from the room
+                self.assertGreater(y.min() - 2, bottom + radius - 1e-4)  # relative to `room`
                 self.assertLess(x.max(), right - radius + 1e-4)
                 np.testing.assert_allclose(y - 2, places[step // 5, :, 1], atol=1e-5)
 
@@ -80,7 +80,7 @@ class ServerTest(unittest.TestCase):
         run("large", text=text.replace("count = 200", "count = 200_000"))
         with Page("large") as page:
             page.json("state?have=0&last=-1")  # opens the run, as a page does first
-            page.frame("step=0")  # has the scale of colours read
+            page.frame("step=0")  # makes the server read the scale of colours
             counted, plain = [], h5py.Dataset.__getitem__
 
             def read(dataset, *words):
@@ -97,7 +97,7 @@ class ServerTest(unittest.TestCase):
             ["/particles/discs/position/value", "/particles/discs/velocity/value"],
         )
         self.assertLessEqual(sum(size for _, size in counted), 200_000 * 2 * 3 * 4 + 1000)
-        self.assertLessEqual(numbers.nbytes, 2 * 320 * 320 * 4)  # what the browser gets
+        self.assertLessEqual(numbers.nbytes, 2 * 320 * 320 * 4)  # data for the browser
 
     def test_a_field_is_that_of_the_table(self):
         quantities = 'output.measurements.quantities=["profiles"]'
@@ -127,7 +127,7 @@ class ServerTest(unittest.TestCase):
         speeds = np.linalg.norm(velocities.astype(float), axis=2)
         slower = np.sort(speeds[0])[199]  # 0.995 of 200 discs are slower
         self.assertLess(speeds[-1].max(), 0.9 * slower)
-        for first in (60, 25, 0):  # windows that open at other steps, each of a server of its own
+        for first in (60, 25, 0):  # pages that open at other steps, each from its own server
             with Page("scale") as page:
                 for words in (f"step={first}", "step=60", "step=60&view=10,10,20,20", "step=0"):
                     about, _ = page.frame(words)
@@ -179,7 +179,7 @@ class ServerTest(unittest.TestCase):
         with Page("news") as page:
             state = page.json("state?have=5&last=20")
             self.assertEqual((state["first"], state["steps"][0]), (5, 25))
-            state = page.json("state?have=5&last=21")  # another run: all anew
+            state = page.json("state?have=5&last=21")  # of another run, so all steps are sent
             self.assertEqual((state["first"], state["steps"][0]), (0, 0))
 
     def test_a_run_without_a_trajectory_shows_its_checkpoints(self):

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # The wheel that brings the program: built, checked, installed into a fresh environment, and run
-# where no other MPI is on the path. README's scene and hash are what it is compared with. Argument:
-# the folder of environments; the build stays beside it.
+# where no other MPI is on the path. It is compared with README's scene and hash. Argument: the
+# folder of environments; the build stays beside it.
 source "$(dirname "$0")/../system/common.sh"
 source "$(dirname "$0")/environment.sh"
 
@@ -10,7 +10,7 @@ for needed in libmpich-dev libhdf5-mpich-dev; do
     dpkg-query -W -f '${db:Status-Status}' "$needed" 2>/dev/null | grep -qx installed ||
         skip_test "the wheel is built with $needed, which is not installed"
 done
-unset CARROM CARROM_MPIEXEC # the wheel's own are to be found
+unset CARROM CARROM_MPIEXEC # so that the wheel's own program and launcher are found
 wheels=$test_folder/wheels
 rm -rf "$wheels"
 BUILD_DIR=$(realpath -m "$1/../wheel") "$package/wheel.sh" "$wheels" >out 2>err || {
@@ -23,7 +23,7 @@ BUILD_DIR=$(realpath -m "$1/../wheel") "$package/wheel.sh" "$wheels" >out 2>err 
 wheel=$(echo "$wheels"/carrom-*.whl)
 case $wheel in *manylinux_2_*) ;; *) complain "the name says no platform: $wheel" ;; esac
 
-# What is inside: each library has a license, and the package's own is there too.
+# The wheel contains a license of each library, and the package's own license.
 use_environment "$1/wheel_checks"
 for tool in 'twine twine' 'check_wheel_contents check-wheel-contents'; do
     read -r module name <<<"$tool"
@@ -57,7 +57,7 @@ alone() {
 sed -n '/^```toml$/,/^```$/p' "$CARROM_SOURCE_DIR/README.md" | sed '/^```/d' >gas.toml
 hash=$(sed -n 's/^state hash  //p' "$CARROM_SOURCE_DIR/README.md")
 [ -s gas.toml ] && [ ${#hash} -eq 32 ] || complain "README has no scene or no hash"
-# has_hash WORD...: runs a command and looks for the hash in what it prints
+# has_hash WORD...: runs a command and searches its output for the hash
 has_hash() {
     n_runs=$((n_runs + 1))
     alone "$@" >out 2>&1 && grep -qx "state hash  $hash" out ||
@@ -115,7 +115,7 @@ for python in ${PYTHONS:-${all[*]}}; do
 done
 [ "$n_simulated" -gt 0 ] || complain 'no Python could try the extension'
 
-# The launcher of another MPI would start copies that know nothing of each other.
+# The launcher of another MPI would start independent copies of the program.
 if other=$(command -v mpiexec.openmpi); then
     "$other" -n 2 "$fresh/bin/carrom" run gas.toml -o other >out 2>&1 &&
         complain 'two lone processes ran under the launcher of Open MPI'

@@ -77,7 +77,7 @@ private:
     };
 
     struct Wall {
-        double place = 0, speed = 0; ///< of an oscillating wall its line's
+        double place = 0, speed = 0; ///< for an oscillating wall, of its line
     };
     struct Meeting {
         double time = 0;

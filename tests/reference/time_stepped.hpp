@@ -178,8 +178,8 @@ void set_left(const Setting& setting, DiscState& disc, std::size_t side);
 void advance(DiscState& disc, double time);
 void exchange_momentum(const Setting& setting, DiscState& p, DiscState& q, double restitution,
                        Copy copy = {}, const Tiles& tiles = {});
-/// The same for rough discs, by the formulas of the page; a guarded pair (`is_touched`) is elastic
-/// and smooth.
+/// The collision of rough discs, by the formulas of the page; a guarded pair (`is_touched`) is
+/// elastic and smooth.
 void collide_rough(const Setting& setting, DiscState& p, DiscState& q, double& p_spin,
                    double& q_spin, bool is_touched, Copy copy = {}, const Tiles& tiles = {});
 

@@ -3,19 +3,19 @@
 # emulated nodes of 4 cores each, all in one folder and without a service manager. To be sourced
 # after common.sh.
 #
-# Nodes have more cores than the machine may have, since what is tested is who starts, stops and
-# goes on, not speed.
+# Nodes may have more cores than the machine, because the tests are about starts, stops and
+# continued runs, not about speed.
 
 cluster_nodes=(n1 n2)
 
-# Says why there is no Slurm here and ends the test as skipped.
+# Prints why there is no Slurm here, and ends the test as skipped.
 skip_test() {
     printf 'skipped: %s\n' "$*"
     exit 77
 }
 
-# stop_process PID: TERM, then KILL after five seconds. For daemons, which are no children of this
-# shell.
+# stop_process PID: sends TERM, and KILL after five seconds. For daemons, which are not children of
+# this shell.
 stop_process() {
     kill "$1" 2>/dev/null || return 0
     local i
@@ -46,11 +46,11 @@ stop_daemons() {
     done
 }
 
-# A port that nobody listens on, and the next few neither.
+# Prints a port such that nobody listens on it or on the next two ports.
 free_ports() {
     local port i
     for ((i = 0; i < 50; ++i)); do
-        port=$((10000 + RANDOM % 20000)) # below those that the system gives away
+        port=$((10000 + RANDOM % 20000)) # below the ports that the system assigns itself
         if ! (
             for k in 0 1 2; do exec 3<>"/dev/tcp/127.0.0.1/$((port + k))" && exit 0; done
             exit 1
@@ -102,7 +102,7 @@ END
     done
 }
 
-# Slurm is not to use cgroups, which a container may lack. Slurm 22 looks for them nevertheless.
+# Slurm must not use cgroups, which a container may lack. Slurm 22 searches for them nevertheless.
 write_cgroup_conf() {
     local version
     version=$(slurmd -V) version=${version#* }
@@ -136,13 +136,15 @@ start_cluster() {
     for program in munged slurmctld slurmd srun sbatch scontrol; do
         command -v "$program" >/dev/null || skip_test "$program is not installed"
     done
-    # munge wants folders above its socket that everybody may pass: not so below many a home folder.
+    # munge requires that everybody may enter the folders above its socket, which many home folders
+    # do not allow.
     cluster=$(mktemp -d /tmp/carrom-slurm.XXXXXX)
     chmod 755 "$cluster"
     export SLURM_CONF=$cluster/slurm.conf
     trap stop_cluster EXIT
     (umask 022 && mkdir "$cluster/run" "$cluster/state" "$cluster/bin")
-    # Of the build's own MPI, where there are several. No link: MPICH looks for its parts beside it.
+    # Calls the launcher of the build's own MPI, because several may be installed. It is not a link,
+    # because MPICH searches for its parts beside the link.
     printf '#!/bin/sh\nexec "%s" "$@"\n' "$CARROM_MPIEXEC" >"$cluster/bin/mpirun"
     chmod +x "$cluster/bin/mpirun"
     export PATH=$cluster/bin:$PATH
@@ -191,9 +193,9 @@ ends_as() {
     tail -n 15 ./*-"$1"-*.log | sed 's/^/    /'
 }
 
-# restart JOB: lets a job that goes back into the queue start again at once, which Slurm would do
-# after two minutes, and anywhere. Not within two seconds: Slurm tells credentials of one job apart
-# by the second. False if it does not come back.
+# restart JOB: lets a requeued job start again at once and on any node; Slurm would wait two
+# minutes. It waits two seconds first, because Slurm distinguishes credentials of one job only by
+# the second. Fails if the job is not requeued or does not start.
 is_requeued() { scontrol show job -o "$1" | grep -q ' Restarts=[1-9]' && has_state "$1" PENDING; }
 may_start() {
     scontrol update "JobId=$1" ReqNodeList= 2>/dev/null
@@ -206,6 +208,6 @@ restart() {
     wait_until 30 has_state "$1" RUNNING || has_state "$1" COMPLETED
 }
 
-# What jobs inherit. Emulated nodes share one machine: messages go through its loopback, and no rank
-# is bound to a core.
+# Variables that jobs inherit. Emulated nodes share one machine: messages go through its loopback,
+# and no rank is bound to a core.
 export OMPI_MCA_btl=self,tcp OMPI_MCA_btl_tcp_if_include=lo PROGRAM=$CARROM_PROGRAM

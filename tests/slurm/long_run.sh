@@ -76,7 +76,7 @@ begin failed --nodelist=n1
 under_way failed
 mapfile -t daemons < <(pgrep -f "slurmstepd: \[$job\.")
 mapfile -t processes < <(pgrep -P "$(IFS=, && echo "${daemons[*]}")")
-# children last: nobody is to see them end
+# children last, so that no parent can report their end
 kill -KILL "$(cat "$cluster/run/slurmd.n1.pid")" "${daemons[@]}" "${processes[@]}"
 scontrol update NodeName=n1 State=DOWN Reason=test
 restarts failed

@@ -1,16 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# One fingerprint of some 1400 runs, whatever the compiler, the optimisation and the instruction
-# set.
+# Tests that the fingerprint of some 1400 runs is the same for all compilers, optimisations and
+# instruction sets.
 #
 #   tests/stability/compilers.sh FOLDER [PATTERN]
 #
 # Builds the engines once for each way below in FOLDER/<way>, runs them and compares. PATTERN (an
 # extended regular expression) picks ways by name: 'gcc_O3' or 'O0'. The level `fast` has flags that
-# would change arithmetic, and that carrom_numerics in CMakeLists.txt takes back. Ways that this
-# machine cannot build or run are named and left out. Some 6 minutes a way on one core; a run that
-# takes an hour ($MINUTES says otherwise) has failed. Needs g++, clang++ and clang's OpenMP (Debian:
-# clang libomp-dev).
+# would change arithmetic; carrom_numerics in CMakeLists.txt revokes them. Ways that this machine
+# cannot build or run are named and left out. Some 6 minutes a way on one core; a run has failed if
+# it takes an hour, or $MINUTES. Needs g++, clang++ and clang's OpenMP (Debian: clang libomp-dev).
 set -euo pipefail
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 folder=${1:?a folder to build in}
@@ -19,7 +18,7 @@ mkdir -p "$folder"
 export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 \
     OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
-# compiler KIND: the newest one there is.
+# compiler KIND: prints the path of the first compiler of this kind that is installed.
 compiler() {
     local name
     case $1 in

@@ -210,8 +210,8 @@ Outcome run_checked(const TestScene& scene, Method method) {
     return outcome_of(system);
 }
 
-/// The same for discs that differ, turn and leave, among obstacles. Text after a colon is printed
-/// but not compared. **Collective.**
+/// The first property that a run breaks, or empty text, for discs that differ, turn and leave,
+/// among obstacles. Text after a colon is printed but not compared. **Collective.**
 std::string broken_among_bodies(const TestScene& scene, Method method) {
     if (!is_clear(scene)) return "drawn with an overlap";
     try {
@@ -236,7 +236,7 @@ std::string broken_among_bodies(const TestScene& scene, Method method) {
     return {};
 }
 
-/// The same for plain scenes. **Collective.**
+/// The first property that a run of a plain scene breaks, or empty text. **Collective.**
 std::string broken_property(const TestScene& scene, Method method) {
     const auto expected = reference_state(scene, method);
     if (!expected) return {};

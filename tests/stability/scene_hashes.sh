@@ -6,9 +6,9 @@
 #   tests/stability/scene_hashes.sh [BUILD]              prints the table; default: build
 #   tests/stability/scene_hashes.sh [BUILD] --compare    prints what differs from scene_hashes.csv
 #
-# Scenes run 100 steps, on 3 ranks of 2 threads; RANKS, THREADS and STEPS say otherwise. ACROSS is
-# the number of ranks that share a strip (default: as the program chooses). Some two minutes on two
-# cores, of which the fingerprint takes one and a half: FINGERPRINT=no leaves it out.
+# Scenes run 100 steps, on 3 ranks of 2 threads; RANKS, THREADS and STEPS set other numbers. ACROSS
+# is the number of ranks that share a strip (default: as the program chooses). Some two minutes on
+# two cores, of which the fingerprint takes one and a half: FINGERPRINT=no leaves it out.
 # SCENES='gas.toml tiny.in' runs these files of inputs/ alone. TABLE is a file for the table that
 # --compare makes. Code 1: a hash differs.
 set -euo pipefail

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes the tables of docs/data/hard_cases anew: every case, its bound, and the worst value that was
-# measured.
+# Makes the tables of docs/data/hard_cases again: every case, its bound, and the worst value that
+# was measured.
 #
 #   tests/stability/table.sh [BUILD] [--long | --long=FAMILY]
 #
 # Runs the tests of BUILD (default: build), one rank with one thread: some 20 seconds. With --long
-# also the long cases, each in a process of its own, as many at a time as there are cores ($JOBS
-# says otherwise); a line tells how long each took. With a family its rows alone are made anew.
-# Without --long their table stays as it is.
+# also the long cases, each in a process of its own, as many at a time as there are cores (or
+# $JOBS); a line reports how long each took. With a family only its rows are made again. Without
+# --long their table stays as it is.
 set -euo pipefail
 source_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 tables=$source_folder/docs/data/hard_cases
@@ -27,8 +27,8 @@ export CARROM_TEST_SECONDS=7200
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# table NAME [FAMILY]: writes the measured lines to NAME.csv, in the place of all that it has, or of
-# the family's.
+# table NAME [FAMILY]: writes the measured lines to NAME.csv. They replace all its lines, or only
+# those of the family.
 table() {
     {
         echo 'family,case,method,bound,worst'
@@ -53,8 +53,7 @@ long_case() {
     echo "$name: exit code $code after $((SECONDS - start)) s" >&2
     [ $code -eq 0 ] || { cat "$folder/said.$number" >&2; touch "$folder/failed"; }
 }
-# Catch2 3 has another option for a list of names; the exit code of Catch2 2 says how many there
-# are.
+# Catch2 3 has another option for a list of names; the exit code of Catch2 2 is their number.
 list=(--list-tests --verbosity quiet)
 if "$build/tests/stability_mpi_test" --help | grep -- --list-test-names-only >/dev/null; then
     list=(--list-test-names-only)
@@ -63,7 +62,7 @@ mapfile -t cases < <("$build/tests/stability_mpi_test" "${list[@]}" "[hours]${fa
     || true)
 [ ${#cases[@]} -gt 0 ] || { echo "there are no long cases of the family $family" >&2; exit 2; }
 for number in "${!cases[@]}"; do
-    # `wait -n` has been seen to miss an end
+    # `wait -n` sometimes misses the end of a process
     while [ "$(jobs -rp | wc -l)" -ge "${JOBS:-$(nproc)}" ]; do sleep 1; done
     long_case "$number" "${cases[number]}" &
 done

@@ -13,11 +13,11 @@ namespace carrom::test {
 /// machine.
 TestScene troubled_scene(std::uint64_t seed);
 
-/// The same with more variety. Up to 40 discs, and patches of a hexagonal lattice with gaps of some
-/// ulp. Boxes that are hardly large enough and boxes of up to 1e6 radii. Speeds from 1e-12 to 1e3
-/// diameters a step, and velocities that differ by an ulp. Overlaps, in the time-stepped method
-/// only. Numbers of micro-steps that are not a power of two, long sync intervals, all lengths times
-/// a power of two.
+/// Like troubled_scene, with more variety. Up to 40 discs, and patches of a hexagonal lattice with
+/// gaps of some ulp. Boxes that are hardly large enough and boxes of up to 1e6 radii. Speeds from
+/// 1e-12 to 1e3 diameters a step, and velocities that differ by an ulp. Overlaps, in the
+/// time-stepped method only. Numbers of micro-steps that are not a power of two, long sync
+/// intervals, all lengths times a power of two.
 TestScene wildly_troubled_scene(std::uint64_t seed, bool may_overlap);
 
 } // namespace carrom::test

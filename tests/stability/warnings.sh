@@ -4,7 +4,7 @@
 # (docs/understanding/hard-cases.md).
 source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 
-# scene SIZE SPEED SYNC RULE: two discs of radius 1.
+# scene SIZE SPEED SYNC METHOD: writes a scene of two discs of radius 1.
 scene() {
     local text='[box]\nsize = %s\n[discs]\nradius = 1\nlist = [[3, 3, %s, 0], [7, 3, 0, 0]]\n'
     text+='[time]\nsteps = 1\nsync_every = %s\nmethod = "%s"\n'
@@ -19,7 +19,7 @@ expect_warning() {
 expect_no_warning() {
     run "$ranks" run scene.toml --quiet
     expect_code 0 "$1"
-    # That this method loses collisions, or that units may be wrong, is another matter.
+    # Warnings that the method loses collisions or that units may be wrong do not count here.
     grep warning "$test_folder/err" | grep -Eqv 'loses about|speeds are lengths per step' &&
         { complain "a warning: $1"; show; }
 }
@@ -33,7 +33,7 @@ scene 10 1 1024 event-driven && expect_no_warning 'a sync interval of 2^10'
 scene 1e7 1 64 event-driven && expect_warning 'a box of 1e7 radii' \
     'too coarse for contacts with walls'
 
-# overlapping X: the second disc at X, two radii from the first at 5.
+# overlapping X: writes a scene with the second disc at X; at 5 it touches the first.
 overlapping() {
     local text='[box]\nsize = 10\n[discs]\nradius = 1\nlist = [[3, 3, 0, 0], [%s, 3, 0, 0]]\n'
     printf "${text}[time]\nsteps = 1\nmethod = \"time-stepped\"\n" "$1" >scene.toml
@@ -41,7 +41,7 @@ overlapping() {
 overlapping 4.9 && expect_warning 'discs that overlap' '1 pair of discs overlap at the start'
 overlapping 5 && expect_no_warning 'discs that touch'
 
-# discs KIND ROW...: these, in a box of 10 with walls or periodic sides.
+# discs KIND ROW...: writes a scene of these discs, in a box of 10 with walls or periodic sides.
 discs() {
     local kind=$1 rows=
     shift

@@ -15,21 +15,21 @@ RANKS_PER_NODE = 32
 # of packing 0.5, all else included, and a disc and micro-step of the time-stepped method's gas of
 # packing 0.2. A disc of a halo takes 33 ns to plan, pack and add.
 NS_COLLISION, NS_STEP, NS_HALO = 383.0, 31.4, 33.0
-SENT_TO_OWN = 2.1  # a disc that is sent over an own one, time-stepped (simulate.py)
-# A window's bound over the largest speed (BlockTuning), and over what is expected of that: bounds
-# go down slowly, so that they are those of the fastest disc of many windows. The second one is
-# fitted to the bytes of halos.
+SENT_TO_OWN = 2.1  # cost of a sent disc over that of an own disc (simulate.py)
+# The speed bound of a window over the largest speed (BlockTuning), and the largest speed over its
+# expected value. The second factor exceeds 1 because bounds fall slowly, so that they follow the
+# fastest disc of many windows; it is fitted to the bytes of halos.
 SPEED_ALLOWANCE, SPEED_KEPT = 1.08, 1.09
-RMS_SPEED = 0.5  # of window_counts, in radii and steps
-# The time-stepped method's gas: windows of three micro-steps, and mean distances of discs from
-# which a rank gets the others' discs once a window, and then in each micro-step those that were
-# hit. Both reproduce the bytes of docs/data/performance/cluster.csv, "weak, 1e6 a rank", on 256 and
-# 1024 ranks.
+RMS_SPEED = 0.5  # in window_counts, in radii per step
+# The time-stepped method: windows of three micro-steps, the depth of halos in mean distances of
+# discs, and the share of halo discs that are sent again in each micro-step, because they have
+# collided. Both reproduce the bytes of docs/data/performance/cluster.csv, "weak, 1e6 a rank", on
+# 256 and 1024 ranks.
 MICRO_STEPS = 3
 STEPPED_DEPTH, STEPPED_UPDATES = 2.0, 0.17
 
 EVENT_PHASES = (
-    "exchange 0",  # discs that change ranks: few
+    "exchange 0",  # few discs change ranks
     f"exchange {DISC_BYTES}",
     "compute",
     f"exchange {HISTORY_BYTES}",
@@ -37,8 +37,8 @@ EVENT_PHASES = (
     "again",
     "exchange 0",
     "reduce 56",
-    "exchange 0",  # which ranks want more of the halo
-    "exchange 0",  # few get it
+    "exchange 0",  # which ranks need more halo
+    "exchange 0",  # few ranks get more halo
     "reduce 16",
     "compute",
     f"exchange {HISTORY_BYTES}",
@@ -58,7 +58,7 @@ class Case(NamedTuple):
     n_discs: float
     method: str = "event-driven"
     is_even: bool = True
-    rows: int = 1  # of ranks in a column
+    rows: int = 1  # number of ranks in a column
     per_node: int = RANKS_PER_NODE
     windows: int = 6
 
@@ -77,13 +77,13 @@ class Plan(NamedTuple):
 
     phases: tuple
     halos: list  # for each rank {other rank: discs}
-    first: list  # nanoseconds that each rank computes for in a window, its halo included
+    first: list  # computing time of each rank in a window in nanoseconds, its halo included
     again: list  # nanoseconds for the repeated run of a block
     rollbacks: float  # in a window
     marked: float  # block runs of a rollback
     own: float  # nanoseconds that one core would take for a rank's share
-    seen: float  # discs that blocks see, over own discs
-    collisions: list  # of a rank in a window
+    seen: float  # discs in blocks with their halos, over own discs
+    collisions: list  # collisions of each rank in a window
 
 
 def gas_of(case):
@@ -99,7 +99,7 @@ def event_plan(case, counts):
     plan, deeper = (plan_with_halo(case, counts, halo) for halo in (3, 4))
     if waited_in(case, plan) <= sum(deeper.first) / sum(plan.first) - 1:
         return plan
-    return deeper._replace(rollbacks=0)  # hardly any were counted with this halo
+    return deeper._replace(rollbacks=0)  # hardly any rollbacks were counted with this halo
 
 
 def waited_in(case, plan, windows=20):

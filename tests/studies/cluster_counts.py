@@ -24,10 +24,10 @@ PLATFORM = os.path.join(FOLDER, "fat_tree.xml")
 class Counted(NamedTuple):
     """A window of the event-driven method in a gas of one density."""
 
-    collisions: float  # of a disc where it is densest
+    collisions: float  # collisions of a disc at the highest density
     micro_steps: float
     packing: float
-    rollbacks: float  # for each mean distance of discs along borders of blocks
+    rollbacks: float  # rollbacks per mean distance of discs along borders of blocks
     marked: float  # block runs that a rollback repeats
 
 

@@ -48,8 +48,8 @@ from cluster_counts import (
 from cluster_plan import DISC_BYTES, HISTORY_BYTES, Window
 
 TOLERANCE = 0.02
-# Of what the model says of runs that were counted: of even gases (True), and where half of the
-# discs crowd, because blocks have discs of both densities there.
+# Largest relative errors of the model for runs that were counted: for homogeneous gases (True), and
+# for gases with half of the discs clustered, where blocks have discs of both densities.
 TOLERANCE_OF_MODEL = {True: 0.06, False: 0.12}
 TABLE = os.path.join(FOLDER, "cluster_model.csv")
 
@@ -111,7 +111,7 @@ def simulated(program, case, counts):
     )
 
 
-# Of halos, in mean distances of discs (group_choice in src/engine/engine_base.cpp).
+# Depths of halos in mean distances of discs (group_choice in src/engine/engine_base.cpp).
 USUAL_DEPTH = {"event-driven": 10, "time-stepped": 1.2}
 MOST_STRONG = 1024  # ranks; with more of them strips are narrower than a few discs
 
@@ -129,7 +129,7 @@ def cases_of(ranks):
                 continue
             rows = cluster_plan.rows_of(n_discs, ranks, USUAL_DEPTH[method])
             yield Case(f"{kind}, {label}", ranks, n_discs, method, is_even, rows)
-            if is_even and rows > 1:  # in comparison
+            if is_even and rows > 1:  # for comparison
                 yield Case(f"{kind}, {label}, whole strips", ranks, n_discs, method, is_even)
 
 

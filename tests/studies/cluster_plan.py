@@ -13,9 +13,9 @@ import math
 from typing import NamedTuple
 
 DISC_BYTES, HISTORY_BYTES = 64, 8
-WORK_OF_DISC = 0.14  # of a disc that a block sees, in collisions
+WORK_OF_DISC = 0.14  # work for each disc of a block or its halo; a collision is 1
 WORTH_A_GROUP, LEAST_SAVED = 0.95, 600  # src/domain/domains.cpp
-DISCS_IN_CACHE = 24_000  # of a block with its halo (src/event_driven/block_window.cpp)
+DISCS_IN_CACHE = 24_000  # in a block with its halo (src/event_driven/block_window.cpp)
 
 
 class Rectangle(NamedTuple):
@@ -53,9 +53,9 @@ class Piece(NamedTuple):
 class Window(NamedTuple):
     """Of the event-driven method, as counted."""
 
-    collisions: float  # of a disc, where the density is 1
+    collisions: float  # collisions per disc where the density is 1
     reach: float  # in mean distances of discs where the density is 1
-    halo: int  # of a block, in reaches
+    halo: int  # depth of a block's halo in reaches
 
     @property
     def depth(self):
@@ -114,8 +114,8 @@ def cuts(parts, n):
 
 
 class Cut(NamedTuple):
-    x: list  # of columns
-    y: list  # of the rows of each column
+    x: list  # edges of columns
+    y: list  # edges of the rows of each column
 
     def rectangles(self):
         return [
@@ -194,11 +194,11 @@ class Blocks(NamedTuple):
 
     n_own: float  # discs
     n_blocks: float
-    seen: float  # discs, by first runs
-    collisions: float  # of own discs
-    work: float  # of first runs, in collisions
-    borders: float  # length of all, in mean distances of discs; two blocks share each
-    repeated_work: float  # of the repeated run of a block
+    seen: float  # discs in the first runs, halos included
+    collisions: float  # collisions of own discs
+    work: float  # work of first runs; a collision is 1
+    borders: float  # total length in mean distances of discs; shared borders count once
+    repeated_work: float  # work of a block's repeated run
 
 
 def blocks_of(gas, own, window):
@@ -231,7 +231,8 @@ def blocks_of(gas, own, window):
         n_blocks += n_x * n_y
         seen += n_x * n_y * piece.density * area(halo)
         collisions += window.collisions * piece.density * piece.density * part.area
-        # Collisions carry news across, so borders count by the collisions beside them.
+        # Collisions carry changes across borders, so borders are weighted with the rate of
+        # collisions beside them.
         borders += n_x * n_y * (width + height) * math.sqrt(piece.density) * piece.density
         work += n_x * n_y * piece.density * area(halo) * per_disc
         most_repeated = max(most_repeated, piece.density * area(2 * halo) * per_disc)

@@ -26,7 +26,8 @@ import sys
 import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-# What is compiled beside the program: the library for others, and the test of its headers.
+# Targets that are compiled besides the program: the library for others, and the test of its
+# headers.
 BESIDE = {"library", "libcarrom_verify_interface_header_sets"}
 BEGIN, END = "<!-- compile -->", "<!-- end of compile -->"
 

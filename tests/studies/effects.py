@@ -42,14 +42,15 @@ def classes(kinds):
     return lines
 
 
-# Nearly smooth: rougher ones lose energy to their spins, and collide less often.
+# Nearly smooth discs, because rougher discs lose energy to their spins and collide less often.
 ROUGH = (
     '[effects.contact]\nkind = "rough"\nrestitution = 0.999\ntangential_restitution ='
     ' -0.99\nfriction = 0.5\n'
 )
 COUNT, SIZE, STEPS = 3000, 300, 300
 
-# times as many discs and as large a box, in fewer steps: images are of discs near the sides
+# factors of the number of discs and of the area of the box, with fewer steps: only discs near the
+# sides have images, so the cost depends on the size of the box
 SCALES = {"periodic sides": (1, 33)}
 COLUMNS = ("effect", "method", "packing", "discs", "instructions_ratio")
 TIME_COLUMNS = ("time_ratio", "time_lower_quartile", "time_upper_quartile")

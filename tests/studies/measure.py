@@ -28,7 +28,7 @@ with open(SETTINGS_FILE, encoding="utf-8") as settings:
     MPI_SETTINGS = dict(
         line.split()[1].split("=") for line in settings if line.startswith("always ")
     )
-# Threads wait as in a run on cores of its own, whatever the shell asks for.
+# Threads wait as in a run on cores of its own, whatever the shell has set.
 WAITS = ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")
 ENVIRONMENT = {
     name: value for name, value in os.environ.items() if name not in WAITS

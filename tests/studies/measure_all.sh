@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Measure everything that docs/understanding/performance.md shows, in about twelve minutes of an
+# Measures everything that docs/understanding/performance.md shows, in about twelve minutes of an
 # otherwise idle machine:
 #
 #   tests/studies/measure_all.sh [BUILD [FOLDER]]       BUILD: build; FOLDER: docs/data/performance
@@ -9,10 +9,9 @@
 # Builds what is missing. MINUTES (6.5) is for the comparison with peers, the rest takes five and
 # more. EDMD names programs that planar_edmd.py builds, as EDMD="cell multi"; the fastest counts.
 # MOST_RANKS=1024 takes half an hour longer on the simulated cluster (256), and 13 GB for each of as
-# many simulations as there are cores: see
-# `simulate.py --jobs`. SHORT=1 runs everything for a fraction of its time, to see that it works;
-# its numbers mean nothing. What needs SimGrid or Google Benchmark is left out, and named, where
-# they are missing.
+# many simulations as there are cores: see `simulate.py --jobs`. SHORT=1 runs everything for a
+# fraction of its time, to see that it works; its numbers mean nothing. Parts that need SimGrid or
+# Google Benchmark are left out, and listed, where these are missing.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 top=$(cd "$here/../.." && pwd)

@@ -25,8 +25,8 @@ BOUNDS = {"time-stepped": 96, "event-driven": 110}
 # bytes beyond equal discs by R: -1.2 and -1.3 when this was written; 3.5 and 14.5 before random
 # insertion gave its lists back
 MOST_MORE, PACKING, MIXED = {3: 4, 10: 8}, 0.4, 300_000
-# what three ranks take over what one takes where discs crowd: 1.23 and 1.17 when this was written;
-# 2.35 and 1.49 while the first domains had equal areas there
+# memory of three ranks over that of one rank for clustered discs: 1.23 and 1.17 when this was
+# written; 2.35 and 1.49 while the first domains had equal areas there
 CROWDED, MOST_CROWDED = 1_000_000, 1.3
 
 

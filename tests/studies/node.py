@@ -126,7 +126,8 @@ class Node:
         reports = self.reports(self.write(case, discs), count, ranks, threads, **variables)
         rate = sum(work_of(report) / report["wall_seconds"] for report in reports) / 1e6
         phases = reports[0]["phase_seconds"]
-        # Phases are of all ranks together, or of the slowest: percent of their own sum.
+        # Times of phases are sums over ranks, or those of the slowest rank, so they are given in
+        # percent of their own sum.
         total = sum(phases[phase] for phase in WORK_OF_PHASES) or 1
         return {"method": method, "gas": gas, "sides": kind, "discs": f"{discs:.0e}",
                 "steps": steps, "shape": name, "millions_a_second": rate,

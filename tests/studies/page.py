@@ -43,7 +43,7 @@ def rate_text(row):
 
 
 PEERS = (("LAMMPS", "over_lammps", 3), ("stream", "over_stream", 2))
-WAYS = ("threads", "ranks")  # to use two cores
+WAYS = ("threads", "ranks")  # ways to use two cores
 
 
 def processor_of(rows):

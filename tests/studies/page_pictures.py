@@ -172,7 +172,7 @@ def draw_roofline(kernels, peaks, folder):
             (x, y),
             textcoords="offset points",
             xytext=(7, (4, -12, 4, 4, -12)[index % 5]),
-            ha="left",  # the lines of the roof are at the left of all points
+            ha="left",  # labels are right of the points, because the roofline is left of them
             fontsize=10,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8},
         )

@@ -19,10 +19,10 @@ import subprocess
 import sys
 import tempfile
 
-CELLS = 2200  # along a side: enough for 1e6 discs at a packing fraction of 0.17
-# What is replaced, by what, and how often it is there. First what both variants need: two
-# components of velocity at kT = 1, no output on the way, and the time that a number of collisions
-# takes.
+CELLS = 2200  # cells along a side, enough for 1e6 discs at a packing of 0.17
+# Each row: text to replace, its replacement, and how often the text occurs. First the changes of
+# both variants: two components of velocity at kT = 1, no output on the way, and the time that a
+# number of collisions takes.
 BOTH = [
     ("p->vz = imsq * random_gaussian();", "p->vz = 0;", 1),
     ("double fac = sqrt(3.0 /", "double fac = sqrt(2.0 /", 1),
@@ -45,7 +45,7 @@ BOTH = [
         1,
     ),
 ]
-# Then a box of one layer, and partners in that layer only.
+# Then the changes of each variant: a box of one layer, and partners only in that layer.
 CHANGES = {
     "Cell": [
         ("#define MAXCEL 75", f"#define MAXCEL {CELLS}", 1),
@@ -73,8 +73,8 @@ CHANGES = {
         ),
     ],
 }
-NEIGHBOURS = "#define MAXNEIGH 24"  # in Multi; a large disc among small ones has more of them
-COMPILER = ["gcc", "-Ofast", "-funroll-loops", "-march=native"]  # as EDMD's own Makefile says
+NEIGHBOURS = "#define MAXNEIGH 24"  # in Multi; a large disc among small ones has more neighbours
+COMPILER = ["gcc", "-Ofast", "-funroll-loops", "-march=native"]  # as in EDMD's own Makefile
 
 
 def planar(source, variant):

@@ -112,7 +112,7 @@ def beside_edmd():
             ("1e6", 1_000_000),
         ):
             if packing == 0.7 and n_discs == 1_000_000:
-                continue  # it would grow for minutes in each round
+                continue  # its discs would grow for minutes in each round
             found[f"periodic, packing {packing}, {name}"] = Case(
                 lambda s, n=n_discs, e=packing: periodic(n, e, s(2_000_000)),
                 unit="collisions",

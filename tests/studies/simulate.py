@@ -32,11 +32,11 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 TABLE = os.path.join(FOLDER, "messages.csv")
 PLATFORM = os.path.join(FOLDER, "fat_tree.xml")
 PINNED = ("messages", "most_messages", "bytes", "collectives", "network_messages")
-# Nanoseconds that a rank computes for: per own disc and micro-step of the gas, measured on one core
-# with 1e5 and 1e6 discs, and of the slow gas, with 1e6 (docs/understanding/performance.md). It
-# sends a disc, 64 bytes, once a window or when that has been hit. That takes 436 to 456
+# Computing time of a rank in nanoseconds: per own disc and micro-step of the gas, measured on one
+# core with 1e5 and 1e6 discs, and of the slow gas, with 1e6 (docs/understanding/performance.md). A
+# rank sends a disc, 64 bytes, once a window and when the disc has collided. That takes 436 to 456
 # instructions, in the slow gas 484; an own disc takes 208 a micro-step. Valgrind counted them with
-# 64,000 discs on 8 and 16 ranks against one. So a sent disc is taken for 2.1 own ones.
+# 64,000 discs on 8 and 16 ranks against one. So a sent disc counts as 2.1 own discs.
 NS_IN_CACHE, NS_IN_MEMORY, NS_SLOW = 23.0, 31.4, 2.6
 SENT_TO_OWN = 2.1
 MOST_IN_CACHE = 200_000  # discs of a rank
@@ -171,7 +171,7 @@ def cases():
         yield Case("weak, 4e6 a rank", ranks, 20_000 * ranks, stands_for=200, window=3)
         yield Case("strong, 1e8", ranks, 2_000_000, stands_for=50, window=3)
         if ranks == 1024:
-            continue  # these have strips about as narrow as what a window looks at
+            continue  # with strips about as narrow as a window's reach
         yield Case("weak, 2e4 a rank", ranks, 20_000 * ranks)
         yield Case("weak, 2e3 a rank", ranks, 2000 * ranks)
         yield Case("strong, 1e6", ranks, 1_000_000)
@@ -194,7 +194,7 @@ def study(program, path, largest, n_workers, most_ranks):
     chosen = [case for case in cases() if case.n_discs <= largest and case.ranks <= most_ranks]
     tasks = [
         [case for case in chosen if case.n_discs > ONE_AT_A_TIME]
-    ]  # memory for two at a time might not be there
+    ]  # two at a time might need too much memory
     tasks += [[case] for case in chosen if case.n_discs <= ONE_AT_A_TIME]
 
     def run(case):
@@ -221,7 +221,7 @@ def study(program, path, largest, n_workers, most_ranks):
             results.sort(key=lambda result: (result[0].name, result[0].ranks))
             with open(
                 path, "w", encoding="utf-8", newline=""
-            ) as file:  # anew each time: an end before the end loses nothing
+            ) as file:  # written again each time, so that an early end loses nothing
                 table = csv.writer(file, lineterminator="\n")
                 table.writerow(["case", "ranks", "stands_for", *fields, "ns_own", "ns_halo"])
                 for done, numbers in results:

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# All C++ is formatted as .clang-format says, by the version of clang-format that it names.
-# Argument: a folder for a Python environment, where that version comes from PyPI and is kept.
+# Checks that all C++ is formatted as .clang-format defines, by the version of clang-format that it
+# names. Argument: a folder for a Python environment, where that version comes from PyPI and is
+# kept.
 #
 #   bash tests/style/format.sh FOLDER           print what differs; exit code 1 if anything does
 #   bash tests/style/format.sh FOLDER --mend    format it

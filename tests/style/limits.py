@@ -71,7 +71,7 @@ def cpp_functions(text):
 def python_functions(text):
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
-            has_text = ast.get_docstring(node) is not None  # what users read is no code
+            has_text = ast.get_docstring(node) is not None  # docstrings are not counted as code
             text = node.body[0].end_lineno - node.body[0].lineno + 1 if has_text else 0
             yield node.name, node.lineno + text, node.end_lineno
 

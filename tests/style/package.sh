@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The Python package as `twine check --strict` and check-wheel-contents want it: built as a wheel
-# and as an archive of the source. The wheel with the program has a test of its own, python_wheel.
-# Argument: a folder for a Python environment, where the tools come from PyPI.
+# Checks the Python package, built as a wheel and as an archive of the source, with `twine check
+# --strict` and check-wheel-contents. The wheel with the program has a test of its own,
+# python_wheel. Argument: a folder for a Python environment, where the tools come from PyPI.
 set -euo pipefail
 source "$(dirname "$0")/python_tools.sh"
 package=$(cd "$(dirname "$0")/../../src/python" && pwd)
@@ -10,7 +10,7 @@ get_tool "$1" twine 7.0.0
 get_tool "$1" check-wheel-contents 0.6.3
 get_tool "$1" pyproject-build 1.6.1 build==1.6.1
 
-# It builds beside the sources, so it gets a copy.
+# The build writes beside the sources, so it uses a copy.
 rm -rf copy dist
 mkdir copy
 tar -C "$package" -h --exclude=__pycache__ --exclude=build --exclude='*.egg-info' -cf - . |

@@ -2,7 +2,7 @@
 # Tools that come from PyPI into an environment in the build folder. To be sourced.
 
 # get_tool FOLDER NAME VERSION [PACKAGE==VERSION]: sets `tool`; the package is named where it has
-# another name than the tool. Where it cannot be had the test ends as skipped (77).
+# another name than the tool. If it cannot be installed, the test ends as skipped (77).
 get_tool() {
     tool=$1/bin/$2
     "$tool" --version 2>/dev/null | grep -qF "$3" && return

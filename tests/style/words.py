@@ -26,7 +26,7 @@ LIST_ITEM = re.compile(r"^(?:[-*]|\d+\.) ")
 def pages(top):
     shown = re.findall(r"^ +- [^:\n]+: (\S+\.md)$", (top / "mkdocs.yml").read_text(), re.M)
     names = {"README.md", *(f"docs/{name}" for name in shown)} - GENERATED
-    return sorted(name for name in names if (top / name).exists())  # notebooks are made pages
+    return sorted(name for name in names if (top / name).exists())  # notebooks become pages later
 
 
 def readable(text):

@@ -71,7 +71,7 @@ TestScene gas(std::size_t n, double packing, double speed, std::uint64_t seed);
 /// "rising", "falling", "tied" or "mixed".
 TestScene chain(std::size_t n, const std::string& times_kind, std::uint64_t seed);
 
-/// The same in a zigzag of bounded speed and length: two rows that approach, so that only
+/// A chain in a zigzag, of bounded speed and length: two rows that approach, so that only
 /// neighbours are in conflict.
 TestScene zigzag(std::size_t n, const std::string& times_kind, std::uint64_t seed);
 

@@ -30,7 +30,7 @@ inline bool is_left_to_others(std::size_t run, std::size_t n_sharing) {
     return part && (run + run / n_sharing + part->number) % n_sharing != 0;
 }
 
-/// The same if all shapes share the runs.
+/// Like the function above, for runs that all shapes share.
 inline bool is_left_to_others(std::size_t run) {
     const std::optional<ShapePart> part = shape_part();
     return part && is_left_to_others(run, part->count);

@@ -148,7 +148,7 @@ discs = [[0, 0, 40], [50, 50, 20]]
                 heat = sum(n * one for n, one in zip(weights, heats)) / sum(weights)
                 self.assertAlmostEqual(heat, kT, delta=0.005)
                 if columns * rows == 196:
-                    continue  # cells of two discs: the page says that their xx and yy are high
+                    continue  # cells of two discs, whose xx and yy are too high (see the page)
                 stress = self.mean("profiles", "xx") + self.mean("profiles", "yy")
                 self.assertAlmostEqual(stress / 2, kT * 400 / 3600, delta=0.0006)
                 for number in self.column("profiles_total", "temperature"):

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Every wrong input is refused the same way: exit code 2, all problems with file and line on
-# standard error, each once, nothing on standard output, nothing written. The arguments are the
-# number of ranks, and every how many-th case is run: what is wrong is found before ranks differ, so
-# that one rank runs all and several run a share ($CARROM_EVERY_CASE=1 all).
+# Every wrong input ends in the same way: exit code 2, each problem once with file and line on
+# standard error, nothing on standard output, and no files. Arguments: the number of ranks, and a
+# number n, because only every n-th case is run. Problems are found before ranks differ, so one rank
+# runs all cases, and several ranks run a share (all with CARROM_EVERY_CASE=1).
 source "$(dirname "$0")/common.sh"
 ranks=$1
 every=${CARROM_EVERY_CASE:-${2:-1}}
 n_cases=0
 
-# refuse WHAT TEXT WORD...: running the program with these words must be refused, with each line of
-# TEXT told once.
+# refuse WHAT TEXT WORD...: the program must end with code 2 for these words, and print each line of
+# TEXT once.
 refuse() {
     local what=$1 text=$2 before line
     shift 2
@@ -57,7 +57,7 @@ refuse 'a flag with a value' '--quiet: takes no value' run nowhere.toml --quiet=
 refuse 'a flag with a word behind it' 'yes: one input is enough' run nowhere.toml --check yes
 refuse 'an unknown subcommand' 'command line' walk some.in
 mkdir secret && printf "$header" >secret/a.in && chmod 000 secret/a.in
-# Root may read everything; a file that gives an error on reading is as good.
+# Root may read everything, so the test uses a file that gives an error on reading.
 if [ -r secret/a.in ]; then refuse 'an unreadable file' '/proc/self/mem: cannot be read' run \
     /proc/self/mem
 else refuse 'an unreadable file' 'secret/a.in: cannot be opened: Permission denied' run secret/a.in
@@ -75,7 +75,7 @@ for command in info verify 'diff pipe' 'convert --to csv'; do
 done
 rm pipe
 
-# Ancestor text, the header.
+# Legacy text, the header.
 refuse_text 'an empty file' '' 'bad.in: the input is empty'
 refuse_text 'TOML by another name' '\n# a box\n[box]\nsize = 10\n' 'bad.in:2: looks like TOML'
 refuse_text 'a header that ends early' '2\n10\n1\n' 'bad.in:3: the input ends before'
@@ -97,7 +97,7 @@ refuse_text 'rubbish in the header' '2 x\n10\n1\n5\nprint\n' 'bad.in:1: '
 refuse_text 'several problems at once' '-2\n10\nnan\n5\nprnt\n' \
     $'bad.in:1: \nbad.in:3: \nbad.in:5: '
 
-# Ancestor text, the discs.
+# Legacy text, the discs.
 refuse_text 'a short line' "${header}0 3 3 1\n1 7 7 0 0\n" 'bad.in:6: '
 refuse_text 'rubbish after a disc' "${header}0 3 3 1 0 9\n1 7 7 0 0\n" 'bad.in:6: '
 refuse_text 'a disc outside the box' "${header}0 3 3 1 0\n1 9.5 7 0 0\n" 'bad.in:7: '
@@ -152,7 +152,7 @@ for device in /dev/zero /dev/full; do
     refuse "discs from $device" "$device: is not a plain file" run good.toml \
         --set discs.file="$device"
 done
-# Lines of discs are looked at even where something else is wrong already.
+# Lines of discs are checked even if there are other errors.
 printf '1 99 7 0 0\n0 3 3 1\n1 4 4 4 4\n' >discs.txt
 with_file=${good/radius = 1/radius = 1$'\n'file = \"discs.txt\"}
 lines=$'discs.txt:2: expected\ndiscs.txt:3: disc 1 is listed twice'

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from program import PROGRAM, ProgramTest, main
 
-# Steps that take minutes, so that threads are there to inspect.
+# Steps that take minutes, so that there is time to inspect the threads.
 SCENE = """
 [box]
 size = 1000

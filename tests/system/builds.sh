@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What CMake says before anything is compiled: systems without a chance are refused in one line, a
-# project that adds Carrom as a folder keeps its build type, flags that change arithmetic are taken
-# back, and --version shows changes.
+# CMake's part before anything is compiled: an unsuitable system is an error of one line, a project
+# that adds Carrom as a folder keeps its build type, flags that change arithmetic are revoked, and
+# --version shows changes.
 #
 # usage: builds.sh CMAKE CXX
 . "$CARROM_SOURCE_DIR/tests/system/common.sh"
 cmake=$1 compiler=$2
 
-# configured FOLDER WORD...: false if cmake stops; what it says is in `log`
+# configured FOLDER WORD...: runs cmake, with its output in `log`; fails if cmake fails
 configured() {
     rm -rf "$test_folder/build"
     timeout 200 "$cmake" -S "$1" -B "$test_folder/build" -DCARROM_TESTS=OFF \
@@ -24,7 +24,8 @@ expect_refusal() {
 }
 expect_refusal FreeBSD -DCMAKE_SYSTEM_NAME=FreeBSD
 expect_refusal Darwin -DCMAKE_SYSTEM_NAME=Darwin
-# expect_refusal_of_data BYTES ORDER: what CMake finds out about such a compiler is set beforehand.
+# expect_refusal_of_data BYTES ORDER: sets the properties that CMake would detect for such a
+# compiler.
 expect_refusal_of_data() {
     local language words=()
     for language in C CXX; do
@@ -36,7 +37,7 @@ expect_refusal_of_data() {
 expect_refusal_of_data 4 LITTLE_ENDIAN
 expect_refusal_of_data 8 BIG_ENDIAN
 
-# HDF5 of another MPI library is an error, also where a link hides which one it is.
+# HDF5 of another MPI library is an error, also if a link hides the library's name.
 multiarch=$("$compiler" -print-multiarch)
 libraries=/usr/lib/$multiarch
 # with_openmpi_hdf5 NAME LIBRARY HEADERS: Open MPI's HDF5 with that MPI library, named by a link
@@ -56,7 +57,7 @@ else
     printf 'skipped: Debian has not both MPI libraries installed\n'
 fi
 
-# A folder whose name HDF5's own h5pcc does not bear.
+# A folder with a name that HDF5's h5pcc cannot handle.
 odd="$test_folder/it's of ä"
 mkdir "$odd"
 timeout 200 "$cmake" -S "$CARROM_SOURCE_DIR" -B "$odd/build" -DCARROM_TESTS=OFF \
@@ -81,7 +82,8 @@ grep -qx 'CMAKE_BUILD_TYPE:STRING=' "$test_folder/build/CMakeCache.txt" ||
 grep -q 'the program is put into .*/build/carrom/$' log ||
     complain "the program of a parent's build: $(grep 'is put into' log)"
 
-# Whatever arithmetic a user's flags ask for is taken back. The compiler says itself what is on.
+# A user's flags that change arithmetic are revoked. The compiler itself lists the options in
+# effect.
 mapfile -t flags < <(grep -m 1 '"command".*src/core/' "$test_folder/build/compile_commands.json" |
     grep -o ' -f[a-z=-]*' | tr -d ' ')
 in_force() {

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs that are right pass the self-check, on 1 and 3 ranks, with the bits and the log of collisions
-# they have without.
+# Runs that are right pass the self-check, on 1 and 3 ranks, with the same bits and the same log of
+# collisions as without it.
 source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 
-# expect_unchanged WHAT WORD...: with and without --check.
+# expect_unchanged WHAT WORD...: runs with and without --check must have the same results.
 expect_unchanged() {
     local what=$1 ranks
     shift

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Checkpoints that cannot be written: exit code 4 and a message within a minute on 1 and 3 ranks,
-# and the last good checkpoint stays. A full disk is a small tmpfs, failing disks are strace's:
-# tried only where mounting and tracing work. Arguments: "few" or "all" of the faults, the libraries
-# that make writes short and that keep std::thread from starting.
+# and the last good checkpoint stays. A full disk is a small tmpfs, and strace simulates failing
+# disks. Both are tested only where mounting and tracing work. Arguments: "few" or "all" of the
+# faults, the libraries that make writes short and that keep std::thread from starting.
 source "$(dirname "$0")/common.sh"
 faults=$1 short_writes=$2 no_threads=$3
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=20000 --set discs.speed=2 --steps 30 \
@@ -42,20 +42,20 @@ else
     echo 'skipped: a full and a read-only disk (mounting a tmpfs is not allowed here)'
 fi
 
-# fault RANK INJECTION: that rank's calls on the second checkpoint's file fail as strace says.
+# fault RANK INJECTION: strace makes calls of this rank on the second checkpoint's file fail.
 cat >traced.sh <<'END'
 #!/bin/sh
 rank=$1 injection=$2
 shift 2
 [ "${OMPI_COMM_WORLD_RANK:-${PMI_RANK:-0}}" = "$rank" ] || exec "$@"
-# A trace on a busy disk would stop the rank as long as the disk takes.
+# On a busy disk writing a trace would delay the rank.
 [ "$injection" = none ] && action=trace=pwrite64 to=trace || action=inject=$injection to=/dev/null
-# The new name is given in the run's folder, by a handle.
+# The file is renamed relative to a handle of the run's folder.
 name=checkpoints/checkpoint-000000000020.h5.partial
 exec strace -f -o "$to" -P "$PWD/kept/$name" -P "$name" -e "$action" "$@"
 END
 chmod +x traced.sh
-# traced RANK INJECTION: three ranks, of which one is traced.
+# traced RANK INJECTION: runs three ranks, of which one is traced.
 traced() {
     rm -rf kept
     timeout --kill-after=5 60 "$CARROM_MPIEXEC" -n 3 ./traced.sh "$1" "$2" "$CARROM_PROGRAM" run \
@@ -108,7 +108,8 @@ else
     echo 'skipped: failing disks (strace is not there, or may not trace here)'
 fi
 
-# on_one_rank RANK SHELL_WORDS: three ranks, of which one begins with these words.
+# on_one_rank RANK SHELL_WORDS: runs three ranks; on one of them the shell runs these words before
+# the program.
 on_one_rank() {
     printf '#!/bin/sh\n[ "${OMPI_COMM_WORLD_RANK:-${PMI_RANK:-0}}" = %s ] && { %s; }\nexec "$@"\n' \
         "$1" "$2" >one.sh
@@ -120,8 +121,9 @@ on_one_rank() {
     code=$?
 }
 
-# Short writes are no failure: what is left is written by the next one. Nor is a system without
-# more threads: those that run share the work. (The steps want no second thread.)
+# Short writes are no failure, because the next write continues them. A system without further
+# threads is no failure either, because the running threads share the work. (The steps need no
+# second thread.)
 scene+=(--threads 1)
 for library in "$short_writes" "$no_threads"; do
     for rank in 0 1; do
@@ -131,9 +133,9 @@ for library in "$short_writes" "$no_threads"; do
         expect_code 0 "after $library on rank $rank"
     done
 done
-# A rank that may not write as far as its share lies: a write that ends early, then errors. The
-# limit of 8 MiB leaves room for the files through which MPI shares memory, once Open MPI 5 makes
-# them as small as Open MPI 4 does; a checkpoint has 16 MiB.
+# A limit to the size of files that ends within this rank's share: one write ends early, the next
+# ones are errors. The limit of 8 MiB leaves room for the files through which MPI shares memory,
+# because Open MPI 5 is set to make them as small as Open MPI 4 does; a checkpoint has 16 MiB.
 export OMPI_MCA_btl_sm_segment_size=4194304
 scene+=(--set discs.count=200000 --set discs.speed=0.5)
 on_one_rank 1 "ulimit -f 16384"

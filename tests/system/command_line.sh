@@ -46,7 +46,7 @@ for option in --threads --steps --set --digits --output --report --quiet --windo
         complain "the help of run does not explain $option"
 done
 
-# A number of threads that is none is not heeded silently.
+# An invalid number of threads gives a warning.
 printf '2\n10\n1\n1\nperf\n' >tiny.in
 for number in abc 0 -1 1000000; do
     export OMP_NUM_THREADS=$number
@@ -65,14 +65,15 @@ for number in 2 ' 2' 2,1 ''; do
 done
 unset OMP_NUM_THREADS
 
-# Threads that wait sleep, unless the user has chosen: the system shows with which variables the
-# program goes on. It waits for its scene meanwhile.
-wait_policy() { # VARIABLE=VALUE...: the policy of a run with these variables
+# Waiting threads sleep, unless the user has chosen otherwise. /proc shows the variables of the
+# program, which waits for its scene meanwhile.
+wait_policy() { # VARIABLE=VALUE...: prints the policy of a run
     { sleep 3 && cat tiny.in; } | env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT "$@" \
         "$CARROM_PROGRAM" run - --quiet >/dev/null 2>&1 &
     local process=$! found=none
     for _ in $(seq 25); do
-        # Before that the process is a shell or `env`, with the policy of the tests.
+        # Until the program has started, the process is a shell or `env`, with the policy of the
+        # tests.
         [ "$(readlink "/proc/$process/exe")" -ef "$CARROM_PROGRAM" ] || { sleep 0.1; continue; }
         found=$(tr '\0' '\n' <"/proc/$process/environ" | sed -n 's/^OMP_WAIT_POLICY=//p')
         [ -z "$found" ] || break
@@ -88,14 +89,14 @@ cores=$(nproc)
 run 2 run tiny.in --quiet --threads "$cores"
 [ ! -s "$test_folder/err" ] || { complain 'warned of ranks that share cores'; show; }
 
-# No MPI where none is needed, and no daemon of its own for a run without mpirun. MPI makes itself
-# known by its libraries' settings, a daemon by being another program.
+# MPI does not start if it is not needed, and a run without mpirun starts no daemon. The test
+# detects MPI by the files of settings that it reads, and a daemon as another program.
 run 1 run tiny.in --quiet -o kept --set output.trajectory.every_steps=1
 expect_code 0 'a run with files'
 file=kept/checkpoints/$(ls kept/checkpoints)
 if command -v strace >/dev/null; then
-    # opened WORD...: sets `n_mpi`, how many of MPI's settings are read, and `n_started`, how many
-    # programs are started.
+    # opened WORD...: sets `n_mpi`, the number of MPI's files that are read, and `n_started`, the
+    # number of programs that are started.
     opened() {
         strace -f -qq -e trace=openat,execve -o "$test_folder/trace" "$CARROM_PROGRAM" "$@" \
             >"$test_folder/out" 2>"$test_folder/err" </dev/null
@@ -155,7 +156,7 @@ for ranks in 1 2; do
 done
 rm -r "$name" kept t.h5 t.xdmf
 
-# A place without rights, or on a disk that cannot be written to, is an output that failed: code 4.
+# If a folder gives no right to write, or its disk cannot be written, the output fails with code 4.
 mkdir locked
 chmod 555 locked
 if ! touch locked/probe 2>/dev/null; then readonly_place=locked

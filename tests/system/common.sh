@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What system tests share: run the real program, note what is wrong, fail at the end. To be sourced.
+# Functions that system tests share: they run the real program, print each failure, and fail at the
+# end. To be sourced.
 #
-# Each test runs in a folder of its own. `files` is what the program sees as its working folder;
-# what it says is kept beside it in `out` and `err`, so that anything it writes uninvited shows.
+# Each test runs in a folder of its own. The program's working folder is `files`. Its output is kept
+# beside this folder in `out` and `err`, so that unexpected files are found.
 set -u
 exec </dev/null
 
-# More threads than cores: those that wait must not spin.
+# There are more threads than cores, so waiting threads must not spin.
 export OMP_WAIT_POLICY=passive
 
 test_folder=$PWD
@@ -25,8 +26,8 @@ finish() {
     exit 0
 }
 
-# The launcher of Open MPI 5.0.7 now and then takes some bytes of standard output for standard error
-# (Debian 13). There the ranks write past it.
+# The launcher of Open MPI 5.0.7 (Debian 13) sometimes sends some bytes of standard output to
+# standard error. So with this launcher each rank writes to the files itself.
 past_launcher=() has_proxy=no
 case $("$CARROM_MPIEXEC" --version 2>&1) in
     *'Open MPI) 5'* | *PRRTE*)
@@ -34,16 +35,17 @@ case $("$CARROM_MPIEXEC" --version 2>&1) in
     *HYDRA*) has_proxy=yes ;;
 esac
 
-# ranks_of LAUNCHER: the ids of its ranks. MPICH's launcher has a process between itself and them.
+# ranks_of LAUNCHER: prints the process ids of its ranks. MPICH's launcher has a process between
+# itself and the ranks.
 ranks_of() {
     local parent=$1
     [ $has_proxy = no ] || parent=$(pgrep -d , -P "$1") || return
     pgrep -P "$parent"
 }
 
-# run RANKS WORD...: the program on that many ranks; sets `code`. Never waits longer than a minute,
-# or `patience` seconds. One rank needs no mpiexec, which takes two seconds to leave when its only
-# rank has failed.
+# run RANKS WORD...: runs the program on that many ranks, for at most `patience` seconds, and sets
+# `code`. One rank runs without mpiexec, which takes two seconds to end when its only rank has
+# failed.
 patience=60
 run() {
     local launch=("$CARROM_MPIEXEC" -n "$1" "${past_launcher[@]}")
@@ -66,19 +68,19 @@ expect_told() {
 }
 expect_same() { cmp "$1" "$2" || complain "$3"; }
 
-# gas_scene SIZE COUNT PACKING SPEED STEPS: a scene's text, discs at random.
+# gas_scene SIZE COUNT PACKING SPEED STEPS: prints a scene of randomly placed discs.
 gas_scene() {
     local text='[box]\nsize = %s\n[discs]\ncount = %s\npacking = %s\nspeed = %s\n'
     printf "${text}[time]\nmethod = \"time-stepped\"\nsteps = %s\n" "$@"
 }
 
-# periodic_box SIZE: a scene's table of a square box that is periodic all round.
+# periodic_box SIZE: prints a scene's table of a square box with four periodic sides.
 periodic_box() {
     printf '[box]\nsize = %s\n' "$1"
     printf '%s.kind = "periodic"\n' left right bottom top
 }
 
-# json_value FILE KEY: the value of a key that stands on a line of its own.
+# json_value FILE KEY: prints the value of a key that is on a line of its own.
 json_value() { sed -n "s/^ *\"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$1"; }
 
 # check_patch PATCH: fails unless the patch applies to the sources without fuzz.

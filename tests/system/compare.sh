@@ -55,7 +55,7 @@ while read -r mistake rule; do
         named=$(sed -n 's/^rule: //p' "$test_folder/out")
         [ "$named" = "$rule" ] || complain \
             "$mistake in $scene breaks the rule '$rule', not '$named': $(cat "$test_folder/out")"
-        # Two ways of the same mistake are told apart.
+        # The message distinguishes two variants of the same mistake.
         case $mistake in
         same-start) way='and the changes add up' ;;
         last-start) way='and only the last collision counts' ;;
@@ -92,7 +92,7 @@ compare 1 wrong.out ties.in
 verdict=$(sed -n 1,4p "$test_folder/out")
 compare 1 wrong.out ties.in --points
 [ "$(sed -n 1,4p "$test_folder/out")" = "$verdict" ] || complain 'points change the verdict'
-# One of six steps has the corner; its disc counts both walls once in either way.
+# One of six steps has the corner. The right and the wrong program count both walls once.
 grep -q '^  steps    50 of 60: 5 of 6 ' "$test_folder/out" ||
     complain "a wrong corner: $(cat "$test_folder/out")"
 sed '/^6 3 /s/ [0-9]*$/ 9/' ties.out >wrong.out
@@ -120,7 +120,7 @@ run 1 run "$generated" --steps 30 --digits 8 --output own.out --quiet
 compare 6 own.out "$generated" --set time.steps=30
 grep -q '^not graded to the end: ' "$test_folder/out" ||
     complain 'a step that roundings decide was graded'
-# There, too, numbers must be possible.
+# Beyond the graded steps, numbers must be valid, too.
 for wrong in 'nan nan nan nan' '1e300 0 0 0' '5 5 inf 0'; do
     sed "s/^30 \([0-9]*\) .* \([0-9]*\) \([0-9]*\)\$/30 \1 $wrong \2 \3/" own.out >wrong.out
     compare 1 wrong.out "$generated" --set time.steps=30

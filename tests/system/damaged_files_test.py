@@ -26,7 +26,7 @@ every_steps = 1
 [output.checkpoint]
 every_steps = 2
 """
-# What is asked about damage of each file.
+# The file that is damaged, and the file with which the program is then called.
 FILES = {
     "checkpoints/checkpoint-000000000004.h5": "checkpoints/checkpoint-000000000004.h5",
     "trajectory.h5": "trajectory.h5",
@@ -66,7 +66,7 @@ class Damage(ProgramTest):
                     self.ask(name, content[:begin] + bytes(end - begin) + content[end:],
                              ("verify", f"o/{name}"), ("info", f"o/{name}"),
                              ("convert", f"o/{name}", "--to", "csv", "--output", "out.csv"))
-            # Damaged in the place of the seal, too, and where its mark is all that is left.
+            # Damages the heap, then also a part of the seal, then also the whole seal.
             damaged = content[:heap + 560] + bytes(1912) + content[heap + 2472:]
             self.ask(name, damaged, ("verify", f"o/{name}"))
             self.ask(name, damaged[:-20] + bytes(20), ("verify", f"o/{name}"))
@@ -76,7 +76,7 @@ class Damage(ProgramTest):
         numbers = random.Random(53)
         for name, asked in FILES.items():
             content = (self.folder / "whole" / name).read_bytes()
-            # Nothing checks the room of a segment, which has no rows yet.
+            # The unused space of a segment has no rows yet, so it has no checksum.
             code = (0, 2) if "/0001" in name else 2
             for _ in range(12):
                 begin = numbers.randrange(min(len(content), 6000))

@@ -104,7 +104,7 @@ class Destinations(ProgramTest):
         self.run_program(1, "run", "plain.toml", "--output", "report.json", code=2,
                          says="is a report")
         self.assertEqual(self.files(), before)
-        # What an output has written it may write anew.
+        # An output may replace a file that it has written before.
         self.run_program(1, "run", "plain.toml", "--quiet", "--report", "report.json", "--output",
                          "lines.txt", *LINES, "--steps", 5)
         self.run_program(1, "convert", "other/trajectory.h5", "--to", "xyz", "--output",

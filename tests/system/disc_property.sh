@@ -8,7 +8,7 @@ begin_patch $# disc_property 6 keys conflicts
 get_python "$1" h5py
 shift
 
-# The plain program stays: discs must fly there as here.
+# The plain program is kept for comparison: the patch must not change how discs move.
 plain=$CARROM_PROGRAM
 build_copy_with "$change" "$@"
 charged=$CARROM_PROGRAM
@@ -86,7 +86,7 @@ for method in time-stepped event-driven; do
     done
 done
 
-# Another run's checkpoint brings its charges along. (The last run had no overlaps.)
+# Discs from another run's checkpoint keep their charges. (The last run had no overlaps.)
 { grep -v 'file\|columns' periodic.toml | sed '/radius/a from = "'"one_$name/$last"'"'; } >from.toml
 CARROM_PROGRAM=$charged
 run 2 run from.toml --quiet --steps 0 -o from

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # A run that begins from the discs of another run's checkpoint or frame: the same places and
 # velocities, other effects, species and methods, the same bits for any machine shape, and a restart
-# that needs the file no more.
+# that no longer needs the file.
 source "$(dirname "$0")/common.sh"
 
 gas_scene 40 300 0.3 1 50 >gas.toml
@@ -13,7 +13,7 @@ expect_code 0 'the first run'
 checkpoint=first/checkpoints/checkpoint-000000000050.h5
 awk '$1 == 50 { print $2, $3, $4, $5, $6 }' "$test_folder/out" >left
 
-next_scene() { # what more
+next_scene() { # DISCS [MORE]: prints a scene with these lines of [discs], and more tables
     printf '[box]\nsize = 40\n[discs]\n%s\n[time]\nsteps = 30\n%s' "$1" "${2:-}"
 }
 radius=$(awk 'BEGIN { printf "%.17g", sqrt(0.3 * 1600 / (300 * atan2(0, -1))) }')
@@ -65,7 +65,7 @@ radius = 0.3" >mixed.toml
 run 2 run mixed.toml --quiet --check
 expect_code 0 'other species'
 
-# Spins come with the discs, of rough ones.
+# Rough discs keep their spins.
 rough='[effects.contact]
 kind = "rough"
 restitution = 0.9
@@ -88,7 +88,7 @@ spins begun/checkpoints/checkpoint-000000000000.h5 | cut -d' ' -f 2- >after
 expect_same before after 'other spins than the checkpoint has'
 [ "$(awk '$NF != 0' after | wc -l)" -gt 100 ] || complain 'hardly any disc turns'
 
-refuse() { # WHAT TOLD ARGUMENTS...
+refuse() { # WHAT TEXT ARGUMENTS...
     run 2 run "${@:3}" --quiet
     expect_code 2 "$1"
     expect_told "$2" "$1"

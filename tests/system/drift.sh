@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Diffusion in a periodic box is that of discs seen from their centre of mass, however they begin
-# and however long windows are. With the drift D would grow with the window: a velocity V adds
-# V^2 t.
+# Diffusion in a periodic box is measured relative to the centre of mass. It does not depend on the
+# initial drift or on the length of windows. With the drift D would grow with the window: a velocity
+# V adds V^2 t.
 source "$(dirname "$0")/common.sh"
 { periodic_box 100; cat; } >gas.toml <<'END'
 [discs]

@@ -309,11 +309,11 @@ class Effects(ProgramTest):
                                  *around, "-o", "around")
         for file in ("around/trajectory.h5", checkpoint("around", 90)):
             self.run_program(1, "verify", file)
-        # H5MD's box says what its sides are.
+        # The box in H5MD contains the kind of its sides.
         self.assertIn(b"periodic", (self.folder / "around/trajectory.h5").read_bytes())
         self.kill_behind(checkpoint("killed", 30), "run", "ring.toml", "--quiet", "--steps",
                          1000000, *around, "-o", "killed")
-        # It may have got further than the run that it is compared with.
+        # The killed run may have advanced further than the run with which it is compared.
         for later in (self.folder / "killed/checkpoints").glob("checkpoint-*.h5"):
             if not later.name.endswith("-000000000030.h5"):
                 later.unlink()

@@ -9,12 +9,12 @@ build_copy_with "$change" "$@"
 expect_pages trap
 
 drift() { json_value "$1/report.json" energy_drift; }
-# is_within SIZE BOUND: whether a number is at most as large.
+# is_within NUMBER BOUND: whether -BOUND <= NUMBER <= BOUND.
 is_within() { awk -v x="$1" -v most="$2" 'BEGIN { exit !(x <= most && -x <= most) }'; }
 
-# Discs that pass through each other and never come to a wall keep energy of motion and in the trap
-# together to a rounding, and an ellipse closes: with the frequency w of the discrete motion, 2 (1 -
-# cos(w t)) = k t^2 for the time t between syncs.
+# If discs pass through each other and never reach a wall, the sum of kinetic energy and energy in
+# the trap is conserved up to rounding, and an ellipse closes: with the frequency w of the discrete
+# motion, 2 (1 - cos(w t)) = k t^2 for the time t between syncs.
 cat >free.toml <<'END'
 [box]
 size = 40
@@ -43,7 +43,8 @@ for method in time-stepped event-driven; do
     grep -q 'in the trap' "$test_folder/out" && complain 'a quiet run has a summary'
 done
 
-# With collisions the splitting shows: the change is small, and smaller with shorter times.
+# With collisions the splitting changes the energy slightly, and less with shorter times between
+# syncs.
 gas_scene 40 300 0.2 0.5 60 >gas.toml
 printf 'sync_every = 8\n[output]\ncheckpoint.every_steps = 25\n[effects]\ntrap.stiffness = 1e-3\n' \
     >>gas.toml

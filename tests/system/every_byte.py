@@ -32,7 +32,7 @@ except ImportError:
 PAGE = 4096
 LONGEST_RUN = 64  # zeros beyond these are room that no structure uses
 MARKS = (b"carrom", b"run\0", b"checksums", b"particles", b"TREE", b"SNOD", b"HEAP", b"OHDR")
-EVERY = {"sample": 31, "bytes": 199, "bits": 997}  # so many bits is one for all readers
+EVERY = {"sample": 31, "bytes": 199, "bits": 997}  # one bit in this many is tested with all readers
 SMALL = """[box]
 size = 20
 [discs]
@@ -125,7 +125,8 @@ def sampled(data: bytes) -> list[int]:
     places = {0, len(data) // 2, len(data) - 1}
     for mark in MARKS:
         for match in itertools.islice(re.finditer(re.escape(mark), data), 3):
-            # HDF5 1.10 finds the links of a group with a damaged type of message when asked again.
+            # With a damaged type of message, HDF5 1.10 finds the links of a group only at a second
+            # call.
             places |= {match.start(), match.start() + 9, max(0, match.start() - 17)}
     return sorted(places & set(used(data)))
 
@@ -224,7 +225,7 @@ def main() -> int:
         flips = bits(data, share)
         for place, bit in flips[:: EVERY[share]]:
             found = damage_and_read(kind, flipped(data, place, bit))
-            del found["verify"]  # it judges all of them below
+            del found["verify"]  # `verify` tests all bits below
             take(kind, "bit flipped", f"bit {bit} of byte {place}", found)
         shutil.rmtree(WORK, ignore_errors=True)
         shutil.copytree(ORIGINAL, WORK)

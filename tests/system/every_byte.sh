@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Each page and each bit of a run's files damaged (every_byte.py). Arguments: the tool that asks
-# often, the folder of Python environments, which share of the damage. The Python package reads too
-# where a test of it has made its environment.
+# Damages each page and each bit of a run's files (every_byte.py). Arguments: the tool that tests
+# many bits in one process, the folder of Python environments, which share of the damage. The Python
+# package is tested, too, if another test has made its environment.
 source "$(dirname "$0")/common.sh"
 python=$2/package/bin/python
 "$python" -c 'import h5py, numpy' 2>/dev/null || python=python3

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the tests of docs/examples/*.patch share. Each patch adds a feature in few files. To be
-# sourced after common.sh.
+# Functions that the tests of docs/examples/*.patch share. Each patch adds a feature in few files.
+# To be sourced after common.sh.
 #
 #   NAME.sh                             does the patch still apply, and touch few files?
 #   NAME.sh [PYTHON] CMAKE OPTION...    builds a copy of the tree with it, and runs that
@@ -20,7 +20,8 @@ begin_patch() {
     [ "$n_words" -gt 0 ] && [ "$n_failures" -eq 0 ] || finish
 }
 
-# get_python FOLDER MODULE: $python is one that has the module. Skips the test where there is none.
+# get_python FOLDER MODULE: sets `python` to an interpreter that has the module. Skips the test if
+# there is none.
 get_python() {
     python=$1/bin/python
     { [ -x "$python" ] || python3 -m venv "$1"; } >"$test_folder/err" 2>&1 &&

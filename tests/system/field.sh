@@ -36,7 +36,7 @@ awk -F, 'function near(a, b) { return a - b < 1e-11 && b - a < 1e-11 }
                      near($column["y"], 50 - 10 + 0.2 * way) }
     END { exit !good }' disc.csv || complain "$(tail -n 1 disc.csv)"
 
-# Gases: between walls, that fall as well, and in a periodic channel.
+# Gases between walls, without and with gravity, and in a periodic channel.
 for box in walls gravity channel; do
     gas_scene 40 300 0.2 0.5 60 >"$box.toml"
     printf 'sync_every = 8\n[output]\ncheckpoint.every_steps = 25\n[effects]\ndrag.rate = 0.01\n' \
@@ -50,7 +50,7 @@ for box in walls gravity channel; do
     grep -q 'air of velocity (0.2, 0.05)' "one_$box/report.json" || complain "$box: no air reported"
 done
 
-# The check knows how much energy the air gives: a gas at rest in it gets no more than that.
+# The self-check allows the energy that the air gives to a slow gas.
 sed 's/speed = 0.5/speed = 1e-3/' channel.toml >still.toml
 run 2 run still.toml --quiet --check --set time.method=event-driven -o still
 expect_code 0 'a gas at rest in air'

@@ -82,7 +82,7 @@ grep -q '^first: step 0, disc 0, x: ' "$test_folder/out" ||
     complain 'diff does not name the first disc and field'
 grep -q '^largest: ' "$test_folder/out" || complain 'diff does not tell the largest difference'
 
-# No output takes the place of what it is made from, which includes a recording's segments.
+# No output replaces its own input, which includes a recording's segments.
 for file in trajectory collisions; do
     run 1 convert "kept/$file.h5" --to csv --output "kept/$file/0001.h5"
     expect_code 2 "convert onto a segment of $file.h5"

@@ -35,7 +35,7 @@ species = [{ count = 80, radius = 1, mass = 2 }, { count = 150, radius = 0.6, ma
 """
 PERIODIC = "\n".join(f'{side}.kind = "periodic"' for side in ("left", "right", "bottom", "top"))
 LOSSY = '[effects.contact]\nkind = "restitution"\nrestitution = 0.9'
-# What depends on the machine or its load.
+# Keys of a report that depend on the machine or its load.
 OF_MACHINE = ("gpu", "wall_seconds", "ns_per_disc_step", "phase_seconds", "phase_imbalance",
               "imbalance", "peak_bytes_per_disc", "threads", "command", "date", "host")
 

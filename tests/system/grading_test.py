@@ -72,7 +72,7 @@ class Grading(ProgramTest):
             score, parts = self.score(text)
             self.assertEqual(score, (10 + steps + 20, 100), text)
             self.assertEqual((parts["lines"], parts["counters"]), ("0 of 10", "20 of 20"))
-            # Wrong counters of that last step are seen, too.
+            # Wrong counters of that last step are found, too.
             text = self.grade([*lines[:-1], lines[-1].rsplit(" ", 1)[0] + " 99"])
             self.assertEqual(self.score(text)[0], (10 + steps, 100), text)
 
@@ -119,7 +119,7 @@ class Grading(ProgramTest):
             score, parts = self.score(text)
             self.assertEqual((parts["start"], parts["steps"]), ("0 of 10", "60 of 60"), text)
             self.assertEqual(score, (90, 100))
-        # A mistake beside it is still a mistake.
+        # Single precision does not hide another mistake.
         lines[20 + self.n_discs] = " ".join([*lines[20 + self.n_discs].split()[:5], "0.7654321"])
         self.assertEqual(self.score(self.grade(lines))[1]["steps"], "50 of 60")
         # Few digits are not single precision.
@@ -155,7 +155,7 @@ class Grading(ProgramTest):
         score, parts = self.score(text)
         self.assertEqual((score, parts["start"]), ((90, 90), "-"), text)
         self.assertEqual(self.score(self.grade(lines, *ends, code=0))[0], (100, 100))
-        # If every step is wanted, the others are missing.
+        # If every step is required, the others are missing.
         text = self.grade(lines[-self.n_discs:], "--set", "time.steps=3")
         self.assertEqual(self.score(text)[0], (20 + 20, 100), text)
         wrong = lines[-self.n_discs:]

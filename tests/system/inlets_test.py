@@ -94,7 +94,7 @@ class Inlets(ProgramTest):
         expected = rate_of(DENSITY) * 35000
         self.assertAlmostEqual(came, expected, delta=4 * math.sqrt(expected))
         self.assertGreater(departed[1], 200)
-        self.assertLess(departed[0], 300)  # those of the start that flew to the left
+        self.assertLess(departed[0], 300)  # initial discs that flew to the left
 
     def test_nozzle(self):
         """In the steady state as many discs leave as come in, and all that came are counted."""
@@ -127,7 +127,7 @@ class Inlets(ProgramTest):
                 report, rest = self.report("whole.json"), self.report("rest.json")
                 self.assertGreater(report["inlet_discs"], 30)
                 self.assertGreater(report["inlet_without_place"], 0)
-                if method == "event-driven": # in the other one discs may overlap for a while
+                if method == "event-driven": # the time-stepped method allows overlaps
                     self.assertEqual(report["overlapping_pairs"], 0)
                 for name in ("inlet_discs", "inlet_without_place", "inlet_without_disc"):
                     self.assertEqual(report[name], rest[name])

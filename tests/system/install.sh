@@ -23,7 +23,7 @@ mv "$test_folder/first" "$test_folder/prefix"
 prefix=$test_folder/prefix
 export CARROM_PROGRAM=$prefix/bin/carrom
 
-# The public headers, all of them and no others.
+# The installed headers are exactly the public ones.
 (cd "$CARROM_SOURCE_DIR/include" && find . -type f | sort) >"$test_folder/wanted"
 (cd "$prefix/include" && find . -type f | sort) >"$test_folder/found"
 expect_same "$test_folder/wanted" "$test_folder/found" 'other headers are installed than there are'
@@ -59,7 +59,7 @@ assert unknown == ["random123"], unknown
 CHECK
     complain 'carrom.cdx.json lacks a library, or a version'
 
-# The image of Apptainer copies all that a build reads, and no build.
+# The recipe of Apptainer copies all files that a build reads, and no build folder.
 mkdir "$test_folder/image"
 awk '/^%/ { is_list = $0 == "%files" } is_list && $2 ~ /^\/src\// { print $1 }' \
     "$CARROM_SOURCE_DIR/docs/install/carrom.def" | while read -r name; do
@@ -95,7 +95,7 @@ step configure "$cmake" -S "$prefix/share/doc/carrom/docs/examples/embed" -B "$t
 grep -q "^Carrom_DIR:PATH=$prefix/" "$test_folder/embed/CMakeCache.txt" ||
     complain 'the package was found elsewhere'
 step build "$cmake" --build "$test_folder/embed"
-# HDF5's own compiler, which CMake asks, does not bear such a name.
+# HDF5's compiler, which CMake calls, cannot handle such a name.
 rm -rf "$test_folder/it's ä"
 step configure_odd "$cmake" -S "$prefix/share/doc/carrom/docs/examples/embed" \
     -B "$test_folder/it's ä" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler"
@@ -108,7 +108,7 @@ step by_pkg_config "$compiler" -std=c++20 "$CARROM_SOURCE_DIR/docs/examples/embe
 [ "$(flags --modversion)" = "$("$CARROM_PROGRAM" --version | sed -n '1s/carrom //p')" ] ||
     complain "carrom.pc has another version: $(flags --modversion)"
 
-# What is installed does not say where it was built.
+# Installed files do not contain the path of the build.
 library=$(dirname "$(dirname "$(find "$prefix" -name carrom.pc)")")
 if grep -qx 'CMAKE_BUILD_TYPE:[A-Z]*=Release' "$build/CMakeCache.txt"; then
     for file in "$prefix/bin/carrom" "$library"/libcarrom.*; do
@@ -118,14 +118,14 @@ if grep -qx 'CMAKE_BUILD_TYPE:[A-Z]*=Release' "$build/CMakeCache.txt"; then
     done
 fi
 
-# Built so, the archive fits into shared libraries of others: its code depends on no address.
+# With position-independent code, the archive can be linked into other shared libraries.
 if [ -e "$library/libcarrom.a" ] &&
     grep -qx 'CMAKE_POSITION_INDEPENDENT_CODE:[A-Z]*=ON' "$build/CMakeCache.txt"; then
     step into_a_library "$compiler" -shared -Wl,-z,text -o "$test_folder/embed/libother.so" \
         -Wl,--whole-archive "$library/libcarrom.a" -Wl,--no-whole-archive
 fi
 
-# expect_hash RANKS HASH SCENE...: the example's last line.
+# expect_hash RANKS HASH SCENE...: the example's last line must have this hash.
 expect_hash() {
     local ranks=$1 hash=$2 launch=()
     shift 2
@@ -176,7 +176,7 @@ for scene in stepped.toml periodic.toml file.toml "$prefix/share/carrom/inputs/t
     for ranks in 1 2; do expect_hash "$ranks" "$hash" "$scene"; done
 done
 
-# A wrong scene is the same error as of the program, with the same code.
+# A wrong scene gives the same error and code as in the program.
 printf '[box]\nsize = -1\n' >wrong.toml
 run 1 run wrong.toml
 expect_code 2 'the program on a wrong scene'

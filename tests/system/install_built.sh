@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# What install.sh tests, of a build of another kind:
+# Tests of install.sh for another kind of build:
 #
 #   shared   libcarrom.so, which programs link by CMake and by pkg-config without naming its own
 #            libraries

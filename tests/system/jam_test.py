@@ -69,7 +69,7 @@ class Jam(ProgramTest):
         self.assertAlmostEqual(float(found[4]), 1 + 0.001 * int(found[3]), delta=1e-9)
         self.assertAlmostEqual(float(found[5]), 0.3 * float(found[4]) ** 2, delta=1e-9)
         self.begin_from(found, PERIODIC)
-        # The bits are those of a run that ends there.
+        # The bits are those of a run that ends at this step.
         self.run_program(1, "run", "grow.toml", "--quiet", "--steps", found[3], "-o", "to_there",
                          "--report", "there.json")
         self.assertEqual(self.hash_of("there.json"), self.hash_in(found[2]))

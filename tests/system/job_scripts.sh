@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# A job script that is not submitted says so plainly, with exit code 2, and writes nothing: in the
+# A job script that is not submitted reports this with exit code 2, and writes nothing, in the
 # checkout's top and elsewhere.
 source "$CARROM_SOURCE_DIR/tests/system/common.sh"
 unset SLURM_JOB_ID
@@ -19,7 +19,8 @@ for script in "$CARROM_SOURCE_DIR"/job_scripts/*.sbatch; do
 done
 [ "$(ls -A)" = top ] && [ "$(ls -A top)" = job_scripts ] || complain "files were written"
 
-# The plugin of srun follows from what the program says of its MPI library, also if it is a script.
+# The plugin of srun follows from the MPI library that the program prints, also if the program is a
+# script.
 source "$CARROM_SOURCE_DIR/job_scripts/mpi.sh"
 while IFS='|' read -r library plugin; do
     printf '#!/bin/sh\n[ "$1" = --version ] && echo "MPI       %s"\n' "$library" >program

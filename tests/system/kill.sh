@@ -9,12 +9,13 @@ RANDOM=3210
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=3000 --set discs.speed=2 --quiet
        --set output.folder=kept --set output.checkpoint.every_steps=20
        --set output.trajectory.every_steps=10 --set output.collisions=true)
-endless=1000000000 # no run is over before it is killed, on whatever machine
+endless=1000000000 # so many that no run ends before it is killed
 
-# kill_once RANKS MILLISECONDS: starts or goes on, and kills one rank that time after there are any.
+# kill_once RANKS MILLISECONDS: starts or continues the run, and kills one rank this long after
+# ranks have started.
 kill_once() {
     local launcher how=(--restart latest)
-    [ "$(newest)" -gt 0 ] || how=(--overwrite) # it has recorded, and nothing to go on from
+    [ "$(newest)" -gt 0 ] || how=(--overwrite) # there are recordings without a checkpoint
     "$CARROM_MPIEXEC" -n "$1" "$CARROM_PROGRAM" run "${scene[@]}" --steps "$endless" \
         "${how[@]}" \
         >"$test_folder/out" 2>"$test_folder/err" &
@@ -26,9 +27,9 @@ kill_once() {
     end_of "$launcher"
 }
 
-# end_of LAUNCHER: its exit code. All ranks must be gone half a minute after one was killed. Open
-# MPI 4.1's launcher may stay nevertheless, if the rank was killed just when it made itself known:
-# that is told, and the launcher ended.
+# end_of LAUNCHER: returns its exit code. All ranks must have ended half a minute after one was
+# killed. Open MPI 4.1's launcher may stay nevertheless, if the rank was killed while it registered.
+# The test prints this, and ends the launcher.
 end_of() {
     local i
     for ((i = 0; i < 300; ++i)); do
@@ -44,7 +45,7 @@ end_of() {
     wait "$1"
 }
 
-# newest: the step of the newest checkpoint that was finished; 0 if there is none.
+# newest: prints the step of the newest complete checkpoint; 0 if there is none.
 newest() {
     local step
     step=$(find kept/checkpoints -name 'checkpoint-*.h5' 2>/dev/null | sed \
@@ -52,14 +53,14 @@ newest() {
     echo "${step:-0}"
 }
 
-# Moments lie before and after ranks have begun to step, however long that takes on a busy machine.
+# Ranks are killed before and after their first step, however long it takes on a busy machine.
 begin=$(date +%s%N)
 run 4 run "${scene[@]}" --steps 1 --set output.folder=first
 expect_code 0 'a first step'
 start_milliseconds=$((($(date +%s%N) - begin) / 1000000))
 
 for ((i = 0; i < n_kills; ++i)); do
-    # MPICH's launcher now and then returns 0 although a rank was killed.
+    # MPICH's launcher sometimes returns 0 although a rank was killed.
     kill_once $((RANDOM % 3 + 2)) $((RANDOM % (1500 + start_milliseconds) + 300)) &&
         [ $has_proxy = no ] && complain 'a run of endless steps ended well'
     grep 'passing over' "$test_folder/err"

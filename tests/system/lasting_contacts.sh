@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Contacts that last: the heap of inputs/heap.toml passes the self-check, comes to rest and then
-# costs no collision; its weight is what the floor bears and what the virial theorem says; and rows
-# that just fill a box, with and without friction, come to rest as well.
+# costs no collision; the force on the floor and the virial theorem give its weight; and rows that
+# just fill a box, with and without friction, come to rest as well.
 source "$(dirname "$0")/common.sh"
 heap=$CARROM_SOURCE_DIR/inputs/heap.toml
 
@@ -85,7 +85,7 @@ for every in 3 4; do
     [ "$(warned)" = $((every % 2)) ] || complain "samples after $every steps"
 done
 
-# One problem is named once, and none rests on a time between syncs that is wrong itself.
+# Each problem is reported once, and no problem is computed from a wrong time between syncs.
 for wrong in time.sync_every=0 effects.gravity.y=-1e10; do
     run 1 run "$heap" --quiet --set $wrong
     expect_code 2 "$wrong"

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # The folder of a run, or a file in it, is moved, removed or replaced while the run writes there.
-# The run ends with code 4 and names it, on 1 and 3 ranks, and writes into nobody's files.
+# The run ends with code 4 and names the folder or file, on 1 and 3 ranks, and writes to no other
+# files.
 source "$(dirname "$0")/common.sh"
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=200 --set discs.packing=0.2 --quiet
        --set output.trajectory.every_steps=100 --set output.collisions=true
@@ -10,10 +11,10 @@ scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=200 --set discs.pa
 sums_of() { (cd "$1" && find . -type f -exec md5sum {} + | sort); }
 
 folder=kept
-newest_of() { # FOLDER: the step of its newest checkpoint
+newest_of() { # FOLDER: prints the step of its newest checkpoint
     find "$1/checkpoints" -name 'checkpoint-*.h5' | sed 's/.*-0*//; s/\.h5$//' | sort -n | tail -n 1
 }
-# begin RANKS WORD...: a run that would not end, in the background, until it has a checkpoint.
+# begin RANKS WORD...: starts an endless run in the background, and waits until it has a checkpoint.
 begin() {
     local launch=("$CARROM_MPIEXEC" -n "$1")
     [ "$1" -gt 1 ] || launch=()
@@ -31,7 +32,7 @@ begin() {
     complain "no checkpoint after $((i / 10)) seconds: $*"
     show
 }
-# ends TEXT CASE: the run ends by itself with code 4 and this text.
+# ends TEXT CASE: the run must end by itself with code 4 and this text.
 ends() {
     wait "$program"
     code=$?
@@ -87,7 +88,7 @@ rm lines.txt
 kill -TERM "$program"
 ends 'lines.txt: was removed while it was written' 'lines that are removed'
 
-# A disk that is gone. (One with open files cannot be made read-only.)
+# A disk that is unmounted. (With open files it cannot be made read-only.)
 mkdir disk
 if mount -t tmpfs -o size=200m tmpfs disk 2>/dev/null; then
     trap 'umount -l "$test_folder/files/disk" 2>/dev/null' EXIT

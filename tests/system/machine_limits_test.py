@@ -53,7 +53,7 @@ class Limits(ProgramTest):
         variables = {"OMP_NUM_THREADS": str(20 * cores)}
         self.assertIn(advice, self.run_quietly("--steps", 0, variables=variables)[1])
         self.assertEqual(self.run_quietly("--threads", min(cores, 12)), (0, ""))
-        # Where threads are bound, the first one sees a core alone, and the rank has all of them.
+        # If threads are bound, the first thread may use only one core, but the rank has all cores.
         bound = {"OMP_PROC_BIND": "true", "OMP_PLACES": "cores"}
         self.assertEqual(self.run_quietly("--threads", min(cores, 12), variables=bound)[1], "")
 
@@ -66,7 +66,8 @@ class Limits(ProgramTest):
         absent = {"GOMP_CPU_AFFINITY": f"{cores[-1] + 1000}-{cores[-1] + 1002}"}
         for memory, variables in ((40_000_000, None), (80_000_000, None), (None, absent)):
             code, words = self.run_quietly("--threads", 2, variables=variables, memory=memory)
-            # Another OpenMP or MPI may do with it; what no run may return is a verdict.
+            # Other OpenMP or MPI libraries may work with these limits. But no run may return a code
+            # that means a result, such as 1 or 2.
             self.assertIn(code, (0, 3, 127), words)
             self.assertTrue(code != 3 or "carrom: " in words or "rank 0" in words, words)
 
@@ -93,7 +94,7 @@ class Limits(ProgramTest):
         self.assertEqual(code, 0, words)
         self.assertIn("try: --threads", words)
         switches = (end.ru_nvcsw + end.ru_nivcsw) - (begin.ru_nvcsw + begin.ru_nivcsw)
-        self.assertLess(switches, 250_000)  # 50,000; before 720,000
+        self.assertLess(switches, 250_000)  # now 50,000; earlier 720,000
 
     def test_on_several_ranks(self):
         self.run_program(2, "run", "scene.toml", "--threads", 9, "--steps", 0, "--quiet",

@@ -81,7 +81,7 @@ class Measurements(ProgramTest):
     def test_wave_vectors_and_windows(self):
         """The restart comes within a window of flights."""
         whole = self.check_stretches(9, *AROUND, *FLIGHTS)
-        # A run too short for a window says so; a longer one goes on with it.
+        # A run that is too short for a window reports this; a longer run continues the window.
         self.run_program(1, "run", "gas.toml", "--steps", 20, *AROUND, *FLIGHTS, "-o", "short",
                          says="gas.toml: warning: no table of diffusion")
         self.assertNotIn("diffusion.csv", self.tables("short"))

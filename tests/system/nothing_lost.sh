@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# A run never begins anew over what another has recorded because a place cannot be read, and
-# --overwrite removes only what a run has written. Argument: a library that fails to list folders.
+# If a folder or file cannot be read, a run does not start over the recordings of another run, and
+# --overwrite removes only files that a run has written. Argument: a library that fails to list
+# folders.
 source "$(dirname "$0")/common.sh"
 failing=$1
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=200 --set discs.packing=0.2 --quiet
@@ -14,7 +15,7 @@ run 1 run "${scene[@]}" -o kept --steps 20
 expect_code 0 'a run to lose'
 sums_of kept >before
 
-# still_there CASE: the run ended with code 2, and all of it is there.
+# still_there CASE: the run must have ended with code 2, and no file of the folder may have changed.
 still_there() {
     expect_code 2 "$1"
     sums_of kept | cmp - before || complain "files have changed: $1"
@@ -100,8 +101,8 @@ for ranks in 1 3; do
     [ ! -e lines.txt ] || complain "lines of a run that has not begun, on $ranks ranks"
 done
 
-# Too many open files say nothing about a checkpoint: an older one is not taken instead, whatever
-# the number at which the limit bites.
+# If a checkpoint cannot be opened because too many files are open, an older one is not used
+# instead, at any limit.
 sums_of kept >before_limit
 printf '#!/bin/sh\nulimit -n "$LIMIT" && exec "%s" "$@"\n' "$CARROM_PROGRAM" >limited.sh
 chmod +x limited.sh
@@ -132,7 +133,8 @@ for LIMIT in {4..14}; do
 done
 CARROM_PROGRAM=$program
 
-# Each kind of recording alone is enough, and a run of which only the start is there begins anew.
+# Each kind of recording alone protects a folder, but a run that has recorded only its start begins
+# again.
 for name in trajectory.h5 collisions.h5 measurements/thermo.csv; do
     rm -rf part
     mkdir -p part/measurements
@@ -166,8 +168,8 @@ rm start/report.json
 run 2 run "${scene[@]}" -o start --steps 10 --resume
 expect_code 0 'a run that recorded its start only'
 
-# --overwrite removes nothing before the new run is sure to begin. Discs that overlap and a check of
-# what it does not know are errors that show late.
+# --overwrite removes nothing before the new run is sure to begin. Overlapping discs and a scene
+# that --check does not support are errors that are found late.
 printf '0 3 3 1 0\n1 3.5 3 0 1\n' >overlapping.txt
 printf '[box]\nsize = 20\n[discs]\ncount = 2\nradius = 1\nfile = "overlapping.txt"\n%s' \
     $'[time]\nsteps = 2\nmethod = "event-driven"\n[output]\ntext = "none"\n' >overlapping.toml
@@ -208,7 +210,7 @@ for how in '-o tabled' '-o kept --resume' '-o kept --overwrite'; do
 done
 sums_of kept | cmp - before || complain 'the test has not brought the table back'
 
-# Nor is a file of tables, which a run with `hdf5` would replace.
+# A file of tables, which a run with `hdf5` would replace, is not replaced either.
 cp -r mine/measurements/tables.h5 tabled/measurements/
 rm tabled/measurements/thermo.csv
 run 1 run "${scene[@]}" -o tabled --overwrite --steps 1 --set output.measurements.hdf5=1 \
@@ -231,7 +233,8 @@ for ranks in 1 3; do
     expect_code 0 "going on with a branch that ended where it began, on $ranks ranks"
 done
 
-# A run that ends before the recordings that it goes on with drops what is beyond, and says so.
+# If a run ends before the end of the recordings that it continues, it drops their later part and
+# prints a warning.
 rm -rf part
 cp -r kept part
 earlier=part/checkpoints/checkpoint-000000000010.h5
@@ -267,7 +270,7 @@ expect_code 2 '--overwrite through a link'
 expect_told 'mine/checkpoints is a symbolic link' '--overwrite through a link'
 (cd far && md5sum -- *) | cmp - before_far || complain 'files behind a link have changed'
 
-# Tables and reports that a killed run has left unfinished are removed, and nobody else's.
+# Unfinished tables and reports of a killed run are removed, and no other files.
 rm mine/checkpoints
 touch mine/measurements/velocities.csv.123-0.partial mine/report.json.77-3.partial \
     mine/measurements/lab.csv.partial
@@ -277,7 +280,7 @@ expect_code 0 'after a killed run'
 [ ! -e mine/measurements/velocities.csv.123-0.partial ] || complain 'a table is left unfinished'
 [ ! -e mine/report.json.77-3.partial ] || complain 'a report is left unfinished'
 
-# A gap in the log of collisions is told, now and later.
+# A gap in the log of collisions is reported, now and later.
 run 1 run "${scene[@]}" -o gap --steps 10
 cp -r gap/collisions gap/collisions.h5 .
 run 1 run "${scene[@]}" -o gap --resume --steps 20

@@ -7,7 +7,7 @@ import csv
 
 from program import SOURCES, ProgramTest, checkpoint, lines_of, main
 
-HALF = 16  # of the box: sums with multiples of 2^-10 are exact
+HALF = 16  # half the box; sums with multiples of 2^-10 are exact
 SCENE = """
 [box]
 {origin}

@@ -10,7 +10,7 @@ run 3 run "$expected/three_discs.in" --output /dev/full
 expect_code 4 'a full disk'
 expect_told 'cannot write to /dev/full: No space left' 'a full disk'
 
-# ended CODE: a run that `run` has not started has ended so.
+# ended CODE: records the exit code of a run that was not started by `run`.
 ended() {
     code=$1
     n_runs=$((n_runs + 1))

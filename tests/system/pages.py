@@ -33,7 +33,7 @@ TIMES = ("steps ", "machine ", "phases ", "imbalance ", "windows ")
 PROGRESS = re.compile(r"^step \d+ of \d+ \(.*\n", re.M)  # slow runs print it
 FENCE = re.compile(r"^( *)```(\w*)\s*$")
 COMMENT = re.compile(r"^ *<!-- (file|not run|needs|exit code):? (.*?) -->\s*$")
-SECONDS_PER_BLOCK = 300  # of a busy machine; an idle one takes at most 30
+SECONDS_PER_BLOCK = 300  # on a busy machine; an idle machine takes at most 30
 
 
 class Block:

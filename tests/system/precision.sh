@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Both precisions, both formulas, contracted and not, under both methods: each has bits of its own,
-# and the same for other ranks, threads and windows.
+# Both precisions, both formulas, contracted and not, under both methods: each combination has its
+# own bits, which are the same for other ranks, threads and windows.
 source "$(dirname "$0")/common.sh"
 
 # scene NAME DISCS PACKING SPEED

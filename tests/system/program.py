@@ -18,8 +18,8 @@ SOURCES = Path(os.environ["CARROM_SOURCE_DIR"])
 ENVIRONMENT = {**os.environ, "OMP_WAIT_POLICY": "passive"}  # more threads than cores must not spin
 VERSION = subprocess.run([LAUNCHER, "--version"], capture_output=True, text=True,
                          check=False).stdout
-# The launcher of Open MPI 5.0.7 now and then takes some bytes of standard output for standard
-# error (Debian 13). There the ranks write past it.
+# The launcher of Open MPI 5.0.7 (Debian 13) sometimes sends some bytes of standard output to
+# standard error. So with this launcher each rank writes to the files itself.
 PAST_LAUNCHER = ["sh", "-c", 'exec "$@" >>"$0/out" 2>>"$0/err"']
 
 

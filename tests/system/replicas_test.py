@@ -75,7 +75,8 @@ class Replicas(ProgramTest):
         self.assertEqual(len(self.table("all")), 6)
         self.replicas(3, 6, "all", "--set", "discs.packing=0.3", code=2)
 
-        # A damaged report is made anew from the replica's checkpoint, or is an error that names it.
+        # A damaged report is made again from the replica's checkpoint, or is an error that names
+        # the report.
         whole = report.read_text(encoding="utf-8")
         state_hash = json.loads(whole)["state_hash"]
         for damaged in (re.sub(r'"first_step": \d+', '"first_step": "x"', whole),

@@ -25,7 +25,7 @@ recipes = {
 }
 problems = []
 
-# Where CMake takes a word for a keyword of find_path and the like, the names have ended.
+# Keywords of find_path and similar commands of CMake, which end the list of names.
 END_OF_NAMES = {"PATHS", "HINTS", "PATH_SUFFIXES", "DOC", "REQUIRED", "NO_DEFAULT_PATH"}
 PKG_CONFIG_WORDS = {"REQUIRED", "QUIET", "IMPORTED_TARGET", "GLOBAL"}
 # The compiler comes with the toolchain there; conda writes it as {{ compiler("cxx") }}.
@@ -36,7 +36,7 @@ def numbers(version):
     return [int(part) for part in re.findall(r"\d+", version)]
 
 
-# What the build asks for.
+# Packages that the build searches.
 
 
 def cmake_files():
@@ -72,16 +72,16 @@ def asked_by_cmake():
         for match in pattern.finditer(text):
             words = [word.strip('"') for word in match.group(2).split()]
             if words[0].startswith("CARROM_LICENSE_"):
-                continue  # a build goes on without
+                continue  # optional
             line = text.count("\n", 0, match.start()) + 1
             version = words[1] if len(words) > 1 and words[1][0].isdigit() else None
             for name in asked_names(match.group(1), words):
                 asked.setdefault(name, (f"{path.relative_to(top)}:{line}", version))
-    asked.pop("Carrom", None)  # programs that use the library look for Carrom itself
+    asked.pop("Carrom", None)  # programs that use the library search Carrom itself
     return asked
 
 
-# What the page lists.
+# Packages that the page lists.
 
 
 def tables():
@@ -140,7 +140,7 @@ def check_options():
                 problems.append(f"{path.relative_to(top)}: CMakeLists.txt has no {option}")
 
 
-# What the scripts install and the recipes depend on.
+# Packages that the scripts install, and dependencies of the recipes.
 
 
 def program_rows():

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# A run that is stopped, killed in between and gone on with on other numbers of ranks and threads
-# has the bits of the uninterrupted one. Arguments: "few" restarts (those that go on with averages)
-# or "all" that is tried, the input and options that make it small; it must run 90 steps.
+# A run that is stopped, killed in between and continued on other numbers of ranks and threads has
+# the bits of the uninterrupted run. Arguments: "all" restarts, or "few" (those that continue
+# averages), the input, and options that make it small; it must run 90 steps.
 source "$(dirname "$0")/common.sh"
 restarts=$1 input=$CARROM_SOURCE_DIR/$2
 shift 2
@@ -21,7 +21,7 @@ hash=$(hash_of_report)
 tail -n 20 "$test_folder/out" >"$test_folder/end"
 [ -n "$hash" ] || complain 'no state hash'
 
-# Stretches of 30 steps on ever other shapes. The last lines of text must be the same too.
+# Stretches of 30 steps, each on another machine shape. The last lines of text must be the same too.
 run 1 run "$input" "${small[@]}" "${store[@]}" --steps 30 --threads 2
 expect_code 0 'the first stretch'
 run 4 run "$input" "${small[@]}" "${store[@]}" --restart latest --steps 60
@@ -35,8 +35,8 @@ tail -n 20 "$test_folder/out" | cmp - "$test_folder/end" || complain 'other line
 [ "$(ls kept/checkpoints)" = "$(printf 'checkpoint-%012d.h5\n' 85 90)" ] ||
     complain "not the last two checkpoints: $(ls kept/checkpoints)"
 
-# Averages go on too, with their errors: the report has those of the uninterrupted run.
-# (Lost collisions are those of the steps since the restart.)
+# Averages continue, too, with their errors: the report has those of the uninterrupted run. (Lost
+# collisions are those of the steps since the restart.)
 averages() {
     sed -n '/^  "averages"/,/^  }/p; /^  "temperature"/,/^  "lost_collisions"/p' report.json
 }
@@ -62,7 +62,7 @@ for ranks in 1 7; do
     has_hash "from step 85 on $ranks ranks"
 done
 
-# At the end there is nothing to do, and more steps can be asked for.
+# At the end there is nothing to do, and more steps can be requested.
 run 1 run --restart kept --report report.json --quiet
 has_hash 'nothing left to do'
 [ "$(json_value report.json steps)" = 0 ] || complain 'steps were made after the last'
@@ -72,7 +72,7 @@ hash=$(hash_of_report)
 run 3 run --restart kept --steps 97 --report report.json --quiet
 has_hash 'longer than first asked for'
 
-# What a restart cannot do is refused, and said.
+# A restart that is impossible is an error with its reason.
 refused() {
     local text=$1
     shift
@@ -94,7 +94,8 @@ refused 'no checkpoint there can be gone on from' "$input" "${small[@]}" --set t
 mkdir empty
 refused 'there is no checkpoint' --restart empty
 
-# A folder without checkpoints is a run's start; damaged files are passed over with the reason.
+# Without checkpoints in the folder the run begins at step 0. Damaged files are skipped, and the
+# reason is printed.
 run 2 run "$input" "${small[@]}" -o empty --steps 97 --restart latest --report report.json
 has_hash 'from an empty folder'
 expect_told 'no checkpoint in empty/checkpoints: beginning at step 0' 'from an empty folder'
@@ -103,7 +104,7 @@ printf 'X' | dd of="$newest" bs=1 seek=9000 conv=notrunc status=none
 head -c 5000 kept/checkpoints/checkpoint-000000000090.h5 \
     >kept/checkpoints/checkpoint-000000000098.h5
 echo 'no checkpoint' >kept/checkpoints/checkpoint-000000000099.h5
-: >kept/checkpoints/checkpoint-000000000100.h5.partial # of a run that was killed
+: >kept/checkpoints/checkpoint-000000000100.h5.partial # left by a killed run
 run 3 run "$input" "${small[@]}" --steps 97 --restart kept --report report.json
 has_hash 'from the newest whole one'
 [ "$(json_value report.json first_step)" = 90 ] || complain 'not from step 90'

@@ -211,7 +211,7 @@ class Restitution(ProgramTest):
             run = self.run_program(1, "run", "corner.toml", "--report", "c.json", *words)
             self.assertIn("collisions took no energy", run.err)
             energies.append(self.report("c.json")["kinetic_energy"])
-        self.assertLess(energies[1], energies[0] / 3)  # what the warning advises helps
+        self.assertLess(energies[1], energies[0] / 3)  # the advice of the warning helps
 
 
 if __name__ == "__main__":

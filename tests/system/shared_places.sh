@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# One folder, one run: a second run that would write where another is writing is an error, whatever
-# became of that one's predecessors. A run does not write over another, nor over files that are no
-# run's, nor through symbolic links.
+# One folder, one run: a second run that would write where another run is writing is an error. A run
+# does not replace another run's files or files of other programs, and does not write through
+# symbolic links.
 source "$(dirname "$0")/common.sh"
 scene=("$CARROM_SOURCE_DIR/inputs/gas.toml" --set discs.count=500 --set discs.speed=2 --quiet)
 
@@ -25,8 +25,8 @@ kill -KILL "$program"
 wait "$program" 2>/dev/null
 [ -e kept/.carrom.lock ] || complain 'the lock of a killed run is not what this test thinks it is'
 
-# Killed before its first checkpoint, it begins anew from the copy of its scene, with what was set,
-# if nobody misses what it has recorded.
+# A run that was killed before its first checkpoint begins again from the copy of its scene with its
+# settings, but only if it has recorded nothing.
 if [ -e kept/trajectory/0001.h5 ]; then
     run 2 run -o kept --resume --steps 5 --quiet
     expect_code 2 'a run after a killed one that has recorded'
@@ -70,7 +70,7 @@ run 1 run "${scene[@]}" -o taken --steps 1 --overwrite
 expect_code 2 'a folder in the place of a file'
 expect_told 'taken/trajectory.xdmf is not a plain file' 'a folder in the place of a file'
 
-# --overwrite removes what the run before has written, and nothing else.
+# --overwrite removes only files that the earlier run has written.
 echo notes >kept/notes.txt
 run 2 run "${scene[@]}" -o kept --overwrite --steps 3
 expect_code 0 '--overwrite'
@@ -104,7 +104,7 @@ for name in trajectory.xdmf scene.toml; do
 done
 [ -L report.json.partial ] || complain 'a foreign file was removed'
 
-# Empty words are variables that are not set, and only a run's own folder may begin anew.
+# Empty words come from variables that are not set. Only a run's own folder may begin again.
 for option in --restart --output --report -o; do
     run 1 run "${scene[@]}" --steps 1 "$option" ""
     expect_code 2 "$option with an empty word"

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# A request to stop is obeyed within 2 s where no step ends: while discs are placed, while they are
-# compressed, and inside a step that takes long, with both methods and on several ranks. A step that
-# is given up leaves a state from before it, with the bits of a run to that step. Two seconds more
-# are for a busy machine and the launcher.
+# A request to stop is obeyed within 2 s even if no step ends: while discs are placed, while they
+# are compressed, and inside a step that takes long, with both methods and on several ranks. A step
+# that is given up leaves a state from before it, with the bits of a run to that step. Two seconds
+# more are for a busy machine and the launcher.
 source "$(dirname "$0")/common.sh"
 most_seconds=4
 gas=("$CARROM_SOURCE_DIR/inputs/gas.toml" --quiet --set output.folder=kept)
@@ -59,7 +59,8 @@ expect_kept() {
     rm -rf again
 }
 
-# On one core some seven seconds each: neither done before the signal, nor long to the next look.
+# Each takes some seven seconds on one core: it is not done before the signal, and the next check
+# for a stop comes soon.
 given_up 1 TERM 1 "${gas[@]}" "${placed[@]}" --set discs.count=2000000
 expect_told 'stopped on request while discs are placed at random' 'placing'
 given_up 3 USR1 3 "${gas[@]}" "${placed[@]}" --set discs.count=4000000

@@ -10,7 +10,7 @@ store=(--set output.folder=kept)
 # several ranks.
 stopped() {
     local launch=("$CARROM_MPIEXEC" -n "$1") program
-    # the shell has what runs in the background ignore it
+    # the shell makes background programs ignore INT
     [ "$1" -gt 1 ] || launch=(env --default-signal=INT)
     rm -rf kept
     "${launch[@]}" "$CARROM_PROGRAM" run "${scene[@]}" "${store[@]}" --steps 100000000 \
@@ -91,7 +91,7 @@ for ((k = 0; k < 24; ++k)); do
 done
 [ "$n_complete" -lt 24 ] || complain 'no signal came early enough to stop a short run'
 
-# After the last step a run is complete, whatever comes: the report is the last that it writes.
+# After the last step a run is complete, whatever signal comes, because it writes its report last.
 for ((k = 0; k < 8; ++k)); do
     rm -rf kept
     "$CARROM_PROGRAM" run short.in --quiet "${store[@]}" >"$test_folder/out" 2>"$test_folder/err" &
@@ -104,8 +104,8 @@ for ((k = 0; k < 8; ++k)); do
     expect_code 0 "a signal after the last step, $k"
 done
 
-# Without a folder for checkpoints the run ends in order too: its recordings are whole, and it says
-# that nothing else is.
+# Without a folder for checkpoints the run ends in order too: its recordings are complete, and it
+# prints that nothing else is kept.
 for signal in TERM USR1; do
     folder=(-o "recorded_$signal" --set output.trajectory.every_steps=1000)
     [ "$signal" = TERM ] || folder=()

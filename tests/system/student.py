@@ -13,7 +13,7 @@ import struct
 import sys
 
 NEVER = 2.0
-MISTAKES = {  # and the rule that `carrom compare` must name
+MISTAKES = {  # each mistake with the rule that `carrom compare` must name
     "higher-ids": "order",
     "pair-before-wall": "order",
     "ids-first": "order",

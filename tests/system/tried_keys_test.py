@@ -14,7 +14,7 @@ radius = 0.5
 steps = 2
 """
 
-# What people write, the line about it, and settings that say the same.
+# Keys that users try, their values, the message about them, and settings with the same meaning.
 TRIED = [
     ("discs.mass", "2", "discs.species = [{count = N, radius = r, mass = m}] in place of",
      ["discs.species=[{count = 4, radius = 0.5, mass = 2}]"]),

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from carrom.disc_arrays import Array, DiscArrays
 from carrom.errors import MissingPackageError, NoDataError
 
-# What the wheel of OVITO 3 links and Debian's smallest system lacks, by ldd.
+# Packages of libraries that OVITO 3's wheel needs and a minimal Debian lacks, as ldd shows.
 _OVITO_PACKAGES = "libegl1 libgl1 libopengl0 libxkbcommon0 libfontconfig1 libdbus-1-3 libglib2.0-0"
 
 

@@ -42,7 +42,7 @@ def check(path: str | os.PathLike[str]) -> None:
     another program has rewritten without checksums.
     """
     if not Path(path).is_file():
-        return  # the reader has a message for that
+        return  # the reader reports a missing file
     try:
         for _ in range(3):
             before = _version(path)
@@ -69,7 +69,7 @@ def _version(path: str | os.PathLike[str]) -> object:
 def _judge(path: str | os.PathLike[str], program: str | os.PathLike[str] | None) -> tuple[int, str]:
     """Return the exit code of `carrom verify`, and what it printed."""
     command = [os.fspath(find_program(program)), "verify", os.fspath(path)]
-    # The program would take a rank of this process's launcher for its own.
+    # With these variables the program would act as a rank of this process's launcher.
     alone = {name: text for name, text in os.environ.items() if not name.startswith(_LAUNCHERS)}
     done = subprocess.run(
         command,

@@ -207,7 +207,7 @@ def wrapped(place: Array, period: float) -> Array:
         return place
     images = np.floor(place / period)
     inside = place - images * period
-    for i in np.flatnonzero(np.abs(images) > 1):  # the product rounds: one rounding in all
+    for i in np.flatnonzero(np.abs(images) > 1):  # rounds once, as the program does
         inside[i] = float(Fraction(place[i]) - Fraction(images[i]) * Fraction(period))
     inside = np.where(inside < 0, inside + period, inside)
     inside = np.where(inside < period, inside, inside - period)

@@ -31,7 +31,7 @@ def refuse_owned(path: str | os.PathLike[str], begins: tuple[bytes, ...] = ()) -
         FileError: it belongs to a run, holds what carrom writes, or is no plain file
     """
     named = Path(path)
-    # A file is replaced under its name, or written behind a link: both places may be a run's.
+    # A write replaces the named file or goes to a link's target; either may belong to a run.
     for place in {Path(os.path.realpath(named)), Path(os.path.realpath(named.parent)) / named.name}:
         owner = _owner(place)
         if owner is not None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 MOST_ROWS = 20
 """A longer table shows its first and last rows."""
 _MOST_DISCS = 4000  # circles of a picture; more would make a notebook slow
-_WIDTH = 240  # of a picture, pixels
+_WIDTH = 240  # width of a picture in pixels
 
 
 def facts(title: str, pairs: Mapping[str, object]) -> str:

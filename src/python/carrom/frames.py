@@ -106,7 +106,7 @@ class Frames(Sequence[Frame]):
     def fields(self) -> list[str]:
         """Names of the fields that frames have, as H5MD has them."""
         discs: Any = {} if self._file is None else self._file["particles/discs"]
-        # A data set is no group. To ask it for a name would read and compare all of its values.
+        # Data sets are left out, because `name in data_set` would compare all of its values.
         groups = (name for name in discs if name != "box" and hasattr(discs[name], "keys"))
         return [name for name in groups if "value" in discs[name]]
 
@@ -193,7 +193,7 @@ class Frames(Sequence[Frame]):
     def __getitem__(self, index: int) -> Frame: ...
     @overload
     def __getitem__(self, index: slice) -> Frames: ...
-    # Completion reads Union, and not the bar.
+    # Completion in editors understands Union, but not `Frame | Frames`.
     def __getitem__(self, index: int | slice) -> Union[Frame, Frames]:  # noqa: UP007
         """Return a frame, or the frames of a slice."""
         if isinstance(index, slice):

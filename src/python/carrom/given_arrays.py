@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from carrom.disc_arrays import Array
 
-_MARKS_OF_UNITS = ("to_value", "magnitude", "in_units")  # of astropy, pint and unyt
+_MARKS_OF_UNITS = ("to_value", "magnitude", "in_units")  # astropy, pint, unyt
 
 
 def locked(array: Array) -> Array:

@@ -39,7 +39,7 @@ def _has_end(content: bytes, place: int) -> bool:
         if is_free_room and length == 0:
             return False
         if length > end - place:
-            return True  # HDF5 finds this by itself
+            return True  # HDF5 itself reports this damage
         padded = -(-length // _ALIGNMENT) * _ALIGNMENT
         place += length if is_free_room else _HEADER + padded
     return True

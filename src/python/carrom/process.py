@@ -109,7 +109,7 @@ class Process:
                 continue
             try:
                 block = os.read(self._master, 65536)
-            except OSError:  # Linux says so when the other side is closed
+            except OSError:  # Linux reports a closed other side like this
                 block = b""
             if not block:
                 break
@@ -128,6 +128,6 @@ class Process:
     def _signal(self, number: signal.Signals) -> None:
         with contextlib.suppress(ProcessLookupError):
             if number == signal.SIGKILL:
-                os.killpg(self._child.pid, number)  # with all ranks
+                os.killpg(self._child.pid, number)  # ends the launcher and all ranks
             else:
                 self._child.send_signal(number)

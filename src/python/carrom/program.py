@@ -15,7 +15,7 @@ from carrom.errors import ProgramNotFoundError
 
 # Wheels hold the program; a package that was installed from the source does not.
 _BUNDLED = Path(__file__).parent / "bin" / "carrom"
-# pip puts it beside the environment's libraries, where such a program finds its MPI.
+# pip puts the launcher of the wheel's MPI into the environment's `bin`.
 _BUNDLED_LAUNCHER = os.path.normpath(Path(__file__).parent / "../../../../bin/mpiexec")
 _ADVICE = "build it (see docs/start/install.md), put it on PATH, or set CARROM to its path"
 
@@ -104,7 +104,7 @@ def foreign_launcher(environment: Mapping[str, str]) -> str:
 def main() -> NoReturn:
     """Become the program: what the command `carrom` of a wheel does."""
     if found := foreign_launcher(os.environ):
-        if os.environ.get("PMIX_RANK", "0") == "0":  # one of all says it
+        if os.environ.get("PMIX_RANK", "0") == "0":  # only one rank prints it
             print(
                 f"carrom: {found} has started this program, which is built with MPICH; use the "
                 f"launcher of that library: {_BUNDLED_LAUNCHER} (with srun: --mpi=pmi2)",

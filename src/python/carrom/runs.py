@@ -266,7 +266,7 @@ class Checkpoints(Sequence[Checkpoint]):
     def __getitem__(self, index: int) -> Checkpoint: ...
     @overload
     def __getitem__(self, index: slice) -> Checkpoints: ...
-    # Completion reads Union, and not the bar.
+    # Completion in editors understands Union, but not `A | B`.
     def __getitem__(self, index: int | slice) -> Union[Checkpoint, Checkpoints]:  # noqa: UP007
         """Return a checkpoint, or those of a slice."""
         if isinstance(index, slice):
@@ -297,7 +297,7 @@ def read_lines(
             for line in lines:
                 words = line.split()
                 step, disc = int(words[0]), int(words[1])
-                if disc == 0:  # a run that was gone on with may list a step again
+                if disc == 0:  # after a restart a step may be listed again
                     frames[step] = []
                 frames[step].append([float(word) for word in words[2:6]])
         return {step: np.array(rows).reshape(-1, 4) for step, rows in frames.items()}

@@ -32,7 +32,7 @@ SCENE_FILES = ("scene.toml", "scene.in")
 
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _REMARK = "# --set "
-_DEEPEST = 64  # tables and lists in each other; the program takes no more than 256
+_DEEPEST = 64  # nested tables and lists; the program accepts at most 256
 _LONG_KEY = re.compile(rf"(?<![\w-])(?:[\w-]+\s*\.\s*){{{_DEEPEST}}}")
 _NESTING = (list, tuple, Mapping)
 _TOO_DEEP = f"has tables or lists nested more than {_DEEPEST} deep, or in themselves"

@@ -27,7 +27,7 @@ def advance(
 
     On several ranks stretches go from one action to the next, so that all ranks have the same.
     """
-    actions.call(simulation)  # those that Ctrl-C or an error has left
+    actions.call(simulation)  # actions that Ctrl-C or an error has left undone
     begin = time.perf_counter()
     first = step = int(core.step)
     stretch = 1 if core.ranks == 1 else end

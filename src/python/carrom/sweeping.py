@@ -21,7 +21,7 @@ from carrom.scene import SceneLike
 from carrom.slurm import submit
 from carrom.sweeps import Point, Quantity, Sweep, SweepError, grid_points
 
-_TAKEN = "another run is writing there"  # as the program says it
+_TAKEN = "another run is writing there"  # as the program prints it
 _SECONDS_BETWEEN_LOOKS = 0.5
 
 

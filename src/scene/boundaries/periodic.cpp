@@ -32,7 +32,8 @@ std::vector<Rule> rules_of_periodic_sides() {
     };
 }
 
-/// Checks that opposite sides are of the same kind; also for sheared sides.
+/// Checks that each period is longer than two diameters, so that a disc cannot touch another one on
+/// both sides. This check includes sheared sides.
 void check_periodic_box(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const Periods periods = scene.effects.periods(scene.box);

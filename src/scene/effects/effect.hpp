@@ -171,8 +171,9 @@ void check_energy_jumps(const SceneDraft& draft);
 /// How the common velocity of all discs along `axis` is treated in temperature, pressure and
 /// displacements. No other function decides this.
 Drift drift_along(Axis axis, const Effects& effects);
-/// Why kT, P and Z are undefined for this number of discs; empty if they are defined. A single disc
-/// has only the common velocity along an axis if nothing stops it there.
+/// Why kT, P and Z are undefined for this number of discs; empty if they are defined. Along a
+/// periodic axis on which nothing stops the common motion, a single disc has no velocity relative
+/// to the centre of mass, so no temperature.
 std::string reason_without_temperature(const Effects& effects, std::uint64_t n_discs);
 /// The settings from all files of effects. Called on rank 0; throws InputError.
 std::vector<std::string> settings_of_effect_files(const SceneParameters& scene);

@@ -15,7 +15,8 @@ for method in time-stepped event-driven; do
     expect_told 'overlaps disc 9 by 2' "the failure under $method"
     expect_told '12 discs around it, from the step before, are in check_step_2_disc_5.toml' \
         "the failure under $method"
-    # A checkpoint of somebody under that name stays, and is no reason to end otherwise.
+    # An HDF5 file of another owner with this name is not replaced, and the exit code stays the
+    # same.
     mv check_step_2_disc_5.discs kept.discs
     printf '\211HDF\r\n\032\n' >check_step_2_disc_5.discs
     run "$n_ranks" "$method"

@@ -119,7 +119,8 @@ TEST_CASE("check: runs in periodic boxes break no invariant, and have their bits
     }
 }
 
-// Two discs that were apart one micro-step before and are now 0.45 apart, across the seam.
+// Two discs whose centres are 0.45 apart, across the seam. One micro-step before, they were 4.4
+// apart.
 TEST_CASE("check: an overlap across a seam is found, of discs that are as large as that") {
     for (const double radius : {1.0, 0.23, 0.22}) {
         TestScene test = empty_scene("across the seam", 40, 1, 10);

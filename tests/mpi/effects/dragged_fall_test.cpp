@@ -46,7 +46,7 @@ Long time_down(Long depth, Long speed, Long late) {
     return early;
 }
 
-/// The disc as the box sees it; one rank has it. **Collective.**
+/// The only disc, in the box's coordinates; one rank has it. **Collective.**
 DiscState only_disc(const DiscSystem& system, const Communicator& world) {
     std::vector<DiscState> all;
     stream_to_root(

@@ -1,8 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# expect_end.sh CODE TIMES TEXT COMMAND ARG...: the command must end with CODE and print TEXT on so
-# many lines of standard error. Where ranks race to abort (TIMES above 1) at least one line is asked
-# for.
+# expect_end.sh CODE TIMES TEXT COMMAND ARG...: the command must end with CODE and print TEXT on
+# TIMES lines of standard error. If TIMES is above 1, ranks race to abort, and one line is enough.
 expected_code=$1 times=$2 text=$3
 shift 3
 "$@" 2> stderr.txt

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs that stop at each step, as one that is analysed while it goes on: windows go on after stops,
-// and each stop has the state of the plain statements of the methods.
+// Runs that stop at each step, like a run that is analysed between steps. Windows continue after
+// stops, and at each stop the state is that of the reference programs.
 #include <algorithm>
 #include <bit>
 #include <string>

@@ -31,7 +31,7 @@ def asked(program: Path, *words: str | Path) -> tuple[int, str, int]:
     os.close(end)
     with os.fdopen(pipe, errors="replace") as text:
         printed = text.read()
-    _, status, usage = os.wait4(child.pid, 0)  # of the processes that it has started, too
+    _, status, usage = os.wait4(child.pid, 0)  # includes the processes that it has started
     child.returncode = os.waitstatus_to_exitcode(status)
     return child.returncode, printed, usage.ru_maxrss // 1024
 

@@ -89,7 +89,7 @@ def test_xyz_of_the_program_goes_round(program: Path, source: carrom.Run, tmp_pa
     assert discs.box is not None
     assert discs.box.size == (20.5, 12.25)
     assert discs.box.periodic == (True, True)
-    # And back: the program writes the same frame from the import.
+    # The way back: the program writes the same frame from the import.
     import_discs(file, tmp_path / "discs.h5", program=program)
     again = converted(program, tmp_path / "discs.h5", "xyz").splitlines()[2:]
     first = [line.split()[:13] for line in text.splitlines()[-50:]]  # without images
@@ -157,7 +157,7 @@ def test_lammps_dumps_go_round(program: Path, source: carrom.Run, tmp_path: Path
     file.write_text(dump_of(wanted(source, 10)) + dump_of(frame), encoding="ascii")
     assert np.array_equal(taken(program, file), frame)
     assert np.array_equal(taken(program, file, frame=0), wanted(source, 10))
-    # A box that begins elsewhere: places are right to a rounding of their own size.
+    # A box with another origin: positions are right to a rounding of their own size.
     file.write_text(dump_of(frame, origin=(-10.25, -6.125)), encoding="ascii")
     assert np.allclose(taken(program, file), frame, rtol=0, atol=1e-14)
     file.write_text(dump_of(frame, bounds="BOX BOUNDS xy xz yz ", tilt=" 0.0"), encoding="ascii")

@@ -97,7 +97,7 @@ def test_rows_of_a_crystal_are_where_it_begins(crystal: carrom.Run) -> None:
     spacing = melting.lattice_constant(crystal.frames[0])
     rows = np.flatnonzero(first.value)
     assert np.array_equal(rows, (np.arange(1, 5) * spacing / 0.05).astype(int))
-    assert np.isnan(first.error).all()  # of a single frame
+    assert np.isnan(first.error).all()  # a single frame gives no error
 
 
 def test_pairs_along_rows_are_those_of_freud(dense: carrom.Run) -> None:

@@ -58,7 +58,8 @@ def bonds(x: Numbers, size: float, periodic: tuple[bool, bool]) -> tuple[Numbers
     spatial = pytest.importorskip("scipy.spatial", reason="SciPy is not installed")
     n = len(x)
     points = with_images(x, size, periodic)
-    # A reflected point is the wall; what is shifted along a periodic axis alone is a disc.
+    # A reflected point stands for the wall; a point that is only shifted along a periodic axis is a
+    # disc.
     is_disc = np.concatenate(
         [
             np.full(n, all(periodic[a] or k == 0 for a, k in enumerate((i, j))))
@@ -117,7 +118,7 @@ def test_psi6_is_that_of_freud(program: Path, tmp_path: Path) -> None:
         voronoi = freud.locality.Voronoi().compute((box, points))
         order = freud.order.Hexatic(k=6).compute((box, points), neighbors=voronoi.nlist)
         mean = abs(np.mean(order.particle_order))
-        assert run.tables["psi6_history"]["psi6"][k] == pytest.approx(mean, abs=2e-5)  # single
+        assert run.tables["psi6_history"]["psi6"][k] == pytest.approx(mean, abs=2e-5)  # floats
 
 
 def test_structure_factor_is_the_sum_over_discs(program: Path, tmp_path: Path) -> None:

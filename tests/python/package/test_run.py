@@ -130,7 +130,7 @@ def test_a_call_that_fails_leaves_what_is_there(program: Path, tmp_path: Path) -
 def test_a_refused_run_leaves_the_lines_of_one_that_goes_on(program: Path, tmp_path: Path) -> None:
     carrom.run(gas(steps=2), folder=tmp_path)
     lines = tmp_path / "lines.txt"
-    lines.touch()  # as another process has opened it
+    lines.touch()  # as if another process had opened it
     with pytest.raises(carrom.InputError, match="begin anew by overwrite=True"):
         carrom.run(gas(steps=2), folder=tmp_path)
     assert lines.exists()

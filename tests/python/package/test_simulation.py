@@ -23,7 +23,7 @@ def equal_tables(tables: Any, wanted: Any) -> None:
     assert set(tables) == set(wanted)
     for name in wanted:
         assert tables[name].dtype == wanted[name].dtype, name
-        ours = tables[name].remarks  # files name the scene before these
+        ours = tables[name].remarks  # in files the scene's name precedes these remarks
         assert ours
         assert ours == wanted[name].remarks[-len(ours) :], name
         for column in wanted[name].columns:  # where both have nan they are equal

@@ -324,7 +324,7 @@ def test_a_full_disc_leaves_the_checkpoint_before(tmp_path: Path) -> None:
     sim.run(1)
 
 
-# What a scene asks for that is not done in this process
+# Outputs that a scene requests, but that a Simulation does not write
 
 
 def test_files_that_a_scene_asks_for_are_warned_of() -> None:

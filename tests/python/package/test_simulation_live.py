@@ -71,7 +71,7 @@ def test_a_free_disc_flies_on_though_others_are_moved() -> None:
     sim.velocities = -v
     sim.run(100)
     np.testing.assert_allclose(unwrapped(sim), before + moved - 100 * v, atol=1e-11)
-    sim.run(500)  # further than the images are kept without a look at them
+    sim.run(500)  # longer than between two updates of image counts
     np.testing.assert_allclose(unwrapped(sim), before + moved - 600 * v, atol=1e-9)
 
 

@@ -77,7 +77,8 @@ Bouncer random_bouncer(Numbers& random) {
 
 } // namespace
 
-// Also between its contacts, and from sync to sync. The number of bounces must be bounded.
+// Tests the time between contacts, too, and several sync intervals. The number of bounces must be
+// bounded.
 TEST_CASE("oscillation: a disc that bounces is never beyond the wall") {
     Numbers random(75);
     std::uint64_t n_all = 0;

@@ -123,7 +123,7 @@ TEST_CASE("obstacles: looked for in cells or one by one, the first contact is th
             const BodyContact found = all.first_contact(disc, 0.5, {tau, to});
             CHECK(found.time == first.time);
             n_found += found.exists();
-            const double half = (tau + to) / 2; // the same in two looks
+            const double half = (tau + to) / 2; // two searches find the same
             const BodyContact early = all.first_contact(disc, 0.5, {tau, half}),
                               late = all.first_contact(disc, 0.5, {half, to, false});
             CHECK((early.exists() ? early.time : late.time) == found.time);

@@ -40,8 +40,8 @@ template <class Run> std::vector<DiscState> where_now(const Run& run, double clo
 }
 
 struct Agreement {
-    std::uint64_t collisions = 0; ///< number until the horizon
-    double gap = 0;               ///< largest one until the horizon, in box sizes
+    std::uint64_t collisions = 0; ///< number of collisions until the horizon
+    double gap = 0;               ///< largest gap until the horizon, in box sizes
 };
 
 /// Runs until discs that were displaced by 1e-12 box sizes at the start differ by 1e-8. Beyond that

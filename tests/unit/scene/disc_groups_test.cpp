@@ -41,7 +41,7 @@ TEST_CASE("shares give whole numbers of the right sum, to the largest rest") {
     // two shares of 2.5: the first one is rounded up
     CHECK(shares("count = 10", "0.5", "0.25", "0.25") == Counts{5, 3, 2});
     CHECK(shares("count = 10", "0.52", "0.24", "0.24") == Counts{5, 3, 2}); // 5.2, 2.4, 2.4
-    CHECK(shares("count = 7", "0.2", "0.2", "0.6") == Counts{2, 1, 4});     // of 1.4, 1.4, 4.2
+    CHECK(shares("count = 7", "0.2", "0.2", "0.6") == Counts{2, 1, 4});     // 1.4, 1.4, 4.2
     CHECK(shares("count = 101", "0.1", "0.1", "0.8") == Counts{10, 10, 81});
     // A mean square radius of 0.5 + 0.25 * 4 + 0.25 * 9 = 3.75: 0.3 * 1e4 / (3.75 pi) = 254.6
     CHECK(shares("packing = 0.3", "0.5", "0.25", "0.25") == Counts{127, 64, 64});

@@ -89,7 +89,7 @@ TEST_CASE("effects know the energy of a disc") {
     CHECK(energy() == Approx(3 * 0.5 * (30 - 4)).epsilon(1e-15));
     effects.gravity = {};
     effects.contact.kind = ContactKind::rough;
-    effects.contact.inertia = 0.4; // of m r^2
+    effects.contact.inertia = 0.4; // in units of m r^2
     CHECK(energy() == Approx(0.5 * 0.4 * 3 * 1.5 * 1.5 * 0.5 * 0.5).epsilon(1e-15));
     // The effect of drag and growth on energies.
     effects.drag = 0.1;

@@ -33,7 +33,7 @@ class Discs:
     kinds: list[str] | None = None  # the name of each disc's species
     box: Box | None = None
     lines: npt.NDArray[np.int64] | None = None  # where each disc stands
-    place: str = ""  # the file, and the frame where lines say nothing
+    place: str = ""  # the file, and also the frame if `lines` is None
 
     @property
     def count(self) -> int:

@@ -31,7 +31,7 @@ FORMATS: dict[str, Reader] = {
     "xyz": xyz.read_xyz,
     "rows": rows.read_rows,
 }
-FEW_KINDS = 118  # discs of so many kinds at most are sorted by kind, so that each is one species
+FEW_KINDS = 118  # with at most this many kinds, discs are sorted by kind: one species each
 _GSD = b"\xdf\x65\xdf\x65\xdf\x65\xdf\x65"
 
 
@@ -193,7 +193,7 @@ def _put_into_box(discs: Discs, choice: Choice) -> None:
         if box.periodic[k]:
             outside = (places < 0) | (places >= edge)
             places = np.where(outside, np.mod(places, edge), places)
-            places[places >= edge] = 0.0  # a rounding of mod
+            places[places >= edge] = 0.0  # np.mod may round up to `edge`
             given = np.where(outside, places + box.origin[k], given)
         else:
             low, high = places < radius, places > edge - radius

@@ -116,7 +116,7 @@ def read_dump(path: str, frame: int | None, step: int | None) -> Discs:
     return Discs(columns, kinds, head.box, places, path)
 
 
-# What a line of Atoms has in each style that Carrom knows.
+# The columns of a line of Atoms, for each style that Carrom can read.
 _STYLES = {
     "atomic": ["id", "type", "x", "y", "z"],
     "charge": ["id", "type", "q", "x", "y", "z"],

@@ -36,7 +36,7 @@ def main(words: Sequence[str] | None = None) -> int:
         MemoryError,
         RuntimeError,
         struct.error,
-    ) as error:  # of matplotlib and pillow
+    ) as error:  # errors of matplotlib and pillow
         print(f"carrom-plot: cannot draw: {error}; try: another --dpi or --rate", file=sys.stderr)
         return 2
     except ImportError as error:

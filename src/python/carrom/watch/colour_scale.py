@@ -15,7 +15,7 @@ from carrom.disc_arrays import Array
 from carrom.errors import NoDataError
 from carrom.frame import Frame
 
-_FASTEST = 0.995  # of the discs are slower than the end of the scale
+_FASTEST = 0.995  # share of discs that are slower than the end of the scale
 
 
 class ColourScale:

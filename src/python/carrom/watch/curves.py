@@ -93,7 +93,7 @@ class Curves:
     def _read_frames(self, frames: Frames | Checkpoints, until: float) -> None:
         """Energy and counters of some frames: the newest, then others, ever more closely spaced."""
         steps = steps_of(frames)
-        if isinstance(frames, Frames):  # older checkpoints are removed, but what they said stays
+        if isinstance(frames, Frames):  # older checkpoints are removed, but their values stay
             last = steps[-1] if steps else -1
             self._of_frames = {s: v for s, v in self._of_frames.items() if s <= last}
         every = max(1, -(-len(steps) // _POINTS))
@@ -102,7 +102,7 @@ class Curves:
                 continue
             self._of_frames[steps[index]] = _sums(frames[index])
             if index != len(steps) - 1 and time.monotonic() > until:
-                return  # one beside the newest at least, else a slow reader would know no others
+                return  # at least one, else a slow reader would only have the newest
 
     def _energy(self) -> Curve:
         return self._column("energy", _ENERGY) or _curve(

@@ -28,7 +28,7 @@ from carrom.watch.picture import MOST_DISCS, View, picture
 from carrom.watch.progress import Rate, is_being_written, legacy_steps
 from carrom.watch.walls import walls_at
 
-_SHARE = 0.01  # of one core
+_SHARE = 0.01  # share of one core
 _LEAST_PAUSE = 1.0
 _LONGEST_PAUSE = 120.0
 

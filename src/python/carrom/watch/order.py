@@ -54,7 +54,7 @@ class _Cells:
         order = np.argsort(number, kind="stable")
         counts = np.bincount(number, minlength=int(self.shape.prod()))
         first = np.cumsum(counts) - counts
-        self.table = np.full((len(counts) + 1, int(counts.max())), -1)  # the last row: no cell
+        self.table = np.full((len(counts) + 1, int(counts.max())), -1)  # the last row means no cell
         self.table[number[order], np.arange(len(x)) - first[number[order]]] = order
 
     def order_of(self, some: Array, rings: int) -> tuple[Array, Array]:
