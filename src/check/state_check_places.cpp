@@ -106,8 +106,8 @@ Finding StateCheck::first_in_fixed_body(const LocalView& now) const {
     const double bound = 2 * tolerance_ + blur(64);
     for (const DiscState& disc : now.population.discs.first(now.population.n_own)) {
         const DiscState seen = now.frame.in_box(disc, now.time);
-        const auto overlap = fixed_bodies_.deepest_overlap(seen.x, seen.y,
-                                                           species_.of(disc.id).radius, bound);
+        const double radius = species_.of(disc.id).radius * size_at(micro_steps_done_);
+        const auto overlap = fixed_bodies_.deepest_overlap(seen.x, seen.y, radius, bound);
         if (overlap.body != BodyContact::no_body)
             return {Invariant::clear, communicator_.rank(), disc.id, overlap.depth, bound,
                     overlap.body};

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "dynamics/growing_contact.hpp"
 #include "dynamics/never.hpp"
-#include "dynamics/pair_contact.hpp"
 #include "dynamics/parabola.hpp"
 
 namespace carrom {
@@ -28,6 +28,19 @@ double way_out(const ArcFlight& f, double reach, double wall) {
     if (!(square > 0)) return b < 0 && x < speed * wall ? -b / a : never;
     const double root = std::sqrt(square);
     return b < 0 ? (root - b) / a : (reach - distance) * (reach + distance) / (b + root);
+}
+
+/// The time at which a disc that grows inside the circle of radius `wall` touches it; `never` if
+/// there is none. In lengths divided by 1 - g t, with g = rate / (wall - radius), and with the
+/// clock u = t / (1 - g t), the disc has a constant radius and flies straight
+/// (growing_contact.hpp).
+double growing_way_out(const ArcFlight& f, const DiscSize& size, double wall) {
+    const double room = wall - size.radius;
+    if (!(room > 0)) return never;
+    const double shrinks = size.rate_of(room);
+    const double clock = way_out(
+        {f.dx, f.dy, std::fma(shrinks, f.dx, f.wx), std::fma(shrinks, f.dy, f.wy)}, room, wall);
+    return clock < never ? clock / std::fma(shrinks, clock, 1.0) : never;
 }
 
 /// The times at which the distance has a minimum or maximum, ascending.
@@ -78,16 +91,19 @@ double contact_while_rising(Parabola flight, double inner, double wall, double b
 
 } // namespace
 
-double arc_contact(const ArcFlight& flight, double radius, double arc_radius, const ArcSpan& span) {
+double arc_contact(const ArcFlight& flight, const DiscSize& size, double arc_radius,
+                   const ArcSpan& span) {
     const auto is_there = [&](double s) {
         const double x = flight.dx + flight.wx * s, y = flight.dy + flight.wy * s;
         return span.holds(x, y, std::sqrt(x * x + y * y));
     };
     const auto [dx, dy, wx, wy] = flight;
     // A disc whose centre is inside the arc overlaps the outer face by more than a radius.
-    const double in = contact_delay(-dx, -dy, -wx, -wy, arc_radius + radius, radius);
+    const double reach = arc_radius + size.radius;
+    const double in = growing_contact_delay(-dx, -dy, -wx, -wy, reach, size.rate_of(reach),
+                                            size.radius);
     if (in >= 0 && is_there(in)) return in;
-    const double out = way_out(flight, arc_radius - radius, arc_radius);
+    const double out = growing_way_out(flight, size, arc_radius);
     return out < never && is_there(out) ? out : never;
 }
 

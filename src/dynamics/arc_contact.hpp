@@ -4,11 +4,14 @@
 // arc's centre. It touches the inner face when its centre gets further away than R - r. Both hold
 // only in directions of the arc. Its ends are separate bodies: points (fixed_bodies.hpp).
 //
-// On a straight flight both times are roots of the same quadratic, computed without cancellation.
+// On a straight flight both times are roots of the same quadratic, computed without cancellation,
+// also while the disc grows: the circle of radius R - r shrinks then (growing_contact.hpp).
 // If discs fall, the time is the root of a quartic, and the distance is monotone in up to four
 // intervals of time (falling_contact.hpp). Cost: some three square roots; if discs fall, some 20
 // divisions for each root.
 #pragma once
+
+#include "dynamics/disc_size.hpp"
 
 namespace carrom {
 
@@ -27,11 +30,12 @@ struct ArcFlight {
     double dx, dy, wx, wy;
 };
 
-/// The first time s >= 0 at which a disc of `radius` touches either face of the arc of `arc_radius`
-/// while it approaches this face; infinite if there is none. If rounding has put the disc slightly
-/// into the arc, the contact is at the next time of approach.
-double arc_contact(const ArcFlight& flight, double radius, double arc_radius, const ArcSpan& span);
-/// Like arc_contact, for falling discs; the acceleration must not be zero.
+/// The first time s >= 0 at which a disc of this size touches either face of the arc of
+/// `arc_radius` while it approaches this face; infinite if there is none. If rounding has put the
+/// disc slightly into the arc, the contact is at the next time of approach.
+double arc_contact(const ArcFlight& flight, const DiscSize& size, double arc_radius,
+                   const ArcSpan& span);
+/// Like arc_contact, for falling discs of constant radius; the acceleration must not be zero.
 double falling_arc_contact(const ArcFlight& flight, double gx, double gy, double radius,
                            double arc_radius, const ArcSpan& span);
 

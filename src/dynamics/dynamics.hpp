@@ -47,7 +47,7 @@ public:
     using typename Base::Arithmetic, typename Base::Real;
 
     static constexpr bool has_mirror_walls = !have_effects, // walls only reverse a velocity
-        may_have_fixed_bodies = have_effects && !OfBodies::grow;
+        may_have_fixed_bodies = have_effects;
     /// If discs collide thousands of times within this many micro-steps, the run ends as a
     /// collision cascade.
     static constexpr double cascade_interval = std::max(OfBodies::cascade_interval,
@@ -142,20 +142,19 @@ public:
 
     /// The first fixed body that the disc meets.
     BodyContact first_fixed_body(const DiscState& disc, const ContactTimes& times) const {
-        return disc.has_departed()
-                   ? BodyContact{}
-                   : fixed_bodies_->first_contact(disc, bodies_.of(disc).radius, times);
+        return disc.has_departed() ? BodyContact{}
+                                   : fixed_bodies_->first_contact(disc, size_of(disc), times);
     }
     /// Whether no fixed body blocks a disc that flies in `time` from one state at the start of this
     /// interval to the other.
     bool is_way_free(const DiscState& from, const DiscState& to, double time) const {
         if (!has_fixed_bodies()) return true;
-        const double radius = bodies_.of(to).radius;
+        const DiscSize size = size_of(from);
         const auto is_clear = [&](const DiscState& disc) {
-            return !fixed_bodies_->do_overlap(disc.x, disc.y, radius);
+            return !fixed_bodies_->do_overlap(disc.x, disc.y, size.radius);
         };
         return is_clear(from) && is_clear(to) &&
-               !fixed_bodies_->first_contact(from, radius, {0, time}).exists();
+               !fixed_bodies_->first_contact(from, size, {0, time}).exists();
     }
     /// Where a disc touches the fixed body that it meets at `time`.
     BodyTouch touch(const DiscState& disc, std::uint32_t body, double time) const {
@@ -168,7 +167,8 @@ public:
                     double* spin = nullptr) const {
         const Body its = bodies_.at(disc, time);
         advance(disc, time);
-        Loss loss = fixed_bodies_->rebound(disc, body, time, since, {spin, its.radius});
+        Loss loss = fixed_bodies_->rebound(disc, body, time, since, its.outwards,
+                                           {spin, its.radius});
         loss.taken *= its.mass;
         loss.spared *= its.mass;
         disc.wall_collisions += 1;
@@ -177,6 +177,11 @@ public:
     }
 
 private:
+    DiscSize size_of(const DiscState& disc) const {
+        const Body body = bodies_.at(disc, disc.tau);
+        return {body.radius, body.outwards};
+    }
+
     Dynamics(const Box& box, double radius, const Effects& effects, ContactFormula formula,
              SpeciesTable species, PairTable pairs)
         : Base(box, radius, effects, formula, species.view(), pairs.view()),

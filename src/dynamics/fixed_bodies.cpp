@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "dynamics/falling_contact.hpp"
+#include "dynamics/growing_contact.hpp"
 #include "dynamics/never.hpp"
-#include "dynamics/pair_contact.hpp"
 
 namespace carrom {
 
@@ -101,20 +101,17 @@ void FixedBodies::add_bodies(const FixedBodyList& fixed_bodies) {
     for (const Arc& arc : container_.arcs()) add_arc(arc, true);
 }
 
-std::int64_t FixedBodies::CellAxis::cell_of(double place) const {
-    const double cell = place / width;
-    return static_cast<std::int64_t>(
-        period != 0 ? std::floor(cell) : std::clamp(cell, 0.0, static_cast<double>(n - 1)));
-}
-
-std::int64_t FixedBodies::CellAxis::box_of(std::int64_t cell) const {
-    if (period == 0 || (cell >= 0 && cell < n)) return 0;
-    return cell >= 0 ? cell / n : -((n - 1 - cell) / n);
-}
-
 FixedBodies::Cells FixedBodies::cells_of(const Extent& extent) const {
     return {columns_.cell_of(extent.x_low - margin_), columns_.cell_of(extent.x_high + margin_),
             rows_.cell_of(extent.y_low - margin_), rows_.cell_of(extent.y_high + margin_)};
+}
+
+/// The cells whose bodies a disc of that radius may touch while its centre is in `extent`. A cell
+/// contains the bodies that discs of the largest radius touch there, and discs may have grown.
+FixedBodies::Cells FixedBodies::cells_near(const Extent& extent, double radius) const {
+    const double more = std::max(radius - largest_radius_, 0.0);
+    return cells_of(
+        {extent.x_low - more, extent.x_high + more, extent.y_low - more, extent.y_high + more});
 }
 
 /// The positions of centres of discs that touch the body's image.
@@ -207,15 +204,15 @@ FixedBodies::Entry FixedBodies::image_of(std::uint32_t code, double x, double y)
 }
 
 /// `dx`, `dy` are relative to the line's beginning; `wx`, `wy` are velocities in the box.
-double FixedBodies::line_delay(const Body& line, double radius, double dx, double dy, double wx,
-                               double wy) const {
+double FixedBodies::line_delay(const Body& line, const DiscSize& size, double dx, double dy,
+                               double wx, double wy) const {
     const auto [gx, gy] = pull_;
     const double place = line.ux * dy - line.uy * dx, rate = line.ux * wy - line.uy * wx,
                  pull = line.ux * gy - line.uy * gx;
     double first = never;
     for (const double side : {1.0, -1.0}) {
-        const double s = fall_delay(side * place - radius, side * rate, side * pull,
-                                    side * place >= 0);
+        const double s = fall_delay(side * place - size.radius, side * rate - size.rate,
+                                    side * pull, side * place >= 0);
         if (!(s < first)) continue;
         const double along = (line.ux * dx + line.uy * dy) + (line.ux * wx + line.uy * wy) * s +
                              (0.5 * (line.ux * gx + line.uy * gy) * s) * s;
@@ -225,22 +222,23 @@ double FixedBodies::line_delay(const Body& line, double radius, double dx, doubl
 }
 
 /// A function of the state only: the first time at which the distance is not positive and falls.
-double FixedBodies::contact_time(const DiscState& disc, const Body& body, double radius,
+double FixedBodies::contact_time(const DiscState& disc, const Body& body, const DiscSize& size,
                                  Shift shift) const {
     const bool falls = pull_[0] != 0 || pull_[1] != 0;
     const double dx = ((disc.x + fallen(0, disc.tau)) - body.x) - shift.x,
                  dy = ((disc.y + fallen(1, disc.tau)) - body.y) - shift.y;
     const double wx = disc.vx + pull_[0] * disc.tau, wy = disc.vy + pull_[1] * disc.tau;
-    if (body.is_line()) return disc.tau + line_delay(body, radius, dx, dy, wx, wy);
+    if (body.is_line()) return disc.tau + line_delay(body, size, dx, dy, wx, wy);
     if (body.is_arc) {
         const ArcFlight flight{dx, dy, wx, wy};
-        return disc.tau + (falls ? falling_arc_contact(flight, pull_[0], pull_[1], radius,
+        return disc.tau + (falls ? falling_arc_contact(flight, pull_[0], pull_[1], size.radius,
                                                        body.radius, body.span)
-                                 : arc_contact(flight, radius, body.radius, body.span));
+                                 : arc_contact(flight, size, body.radius, body.span));
     }
-    const double reach = body.radius + radius;
+    const double reach = body.radius + size.radius;
     if (falls) return disc.tau + falling_contact(dx, dy, wx, wy, pull_[0], pull_[1], reach);
-    const double delay = contact_delay(-dx, -dy, -wx, -wy, reach, never);
+    const double delay = growing_contact_delay(-dx, -dy, -wx, -wy, reach, size.rate_of(reach),
+                                               never);
     return delay < 0 ? never : disc.tau + delay;
 }
 
@@ -264,7 +262,7 @@ double FixedBodies::slices_of(const DiscState& disc, double begin, double end) c
     return std::clamp(std::ceil(way / std::min(columns_.width, rows_.width)), 1.0, 1e6);
 }
 
-BodyContact FixedBodies::first_contact(const DiscState& disc, double radius,
+BodyContact FixedBodies::first_contact(const DiscState& disc, const DiscSize& size,
                                        const ContactTimes& times) const {
     const double begin = std::max(times.from, disc.tau);
     BodyContact best;
@@ -274,14 +272,15 @@ BodyContact FixedBodies::first_contact(const DiscState& disc, double radius,
     for (double k = 1; k <= n_slices; ++k) {
         const double to = k == n_slices ? times.to : begin + (times.to - begin) * (k / n_slices);
         const Extent path = path_of(disc, from, to);
-        visit_cells(cells_of(path), [&](const Entry& image) {
+        const double radius = size.after(to - disc.tau);
+        visit_cells(cells_near(path, radius), [&](const Entry& image) {
             const Body& body = bodies_[image.body];
             const Shift shift = shift_of(image);
             const Extent extent = extent_of(body, radius, shift);
             if (extent.x_low > path.x_high + margin_ || extent.x_high < path.x_low - margin_ ||
                 extent.y_low > path.y_high + margin_ || extent.y_high < path.y_low - margin_)
                 return;
-            const double time = contact_time(disc, body, radius, shift);
+            const double time = contact_time(disc, body, size, shift);
             if (!(time <= times.to) || time < times.from ||
                 (time == times.from && !times.hold_from) || time > best.time)
                 return;
@@ -320,7 +319,7 @@ BodyTouch FixedBodies::touch(const DiscState& disc, std::uint32_t code, double t
 }
 
 Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, double since,
-                          const Turning& turning) const {
+                          double outwards, const Turning& turning) const {
     const double x = disc.x + fallen(0, time), y = disc.y + fallen(1, time);
     const Entry image = image_of(code, x, y);
     const Body& at = bodies_[image.body];
@@ -331,8 +330,10 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     const double slides = from_body.is_hollow ? -at.slides : at.slides;
     const auto& [restitution, rubbing] = surface_.of(disc.id);
     const double normal = nx * (disc.vx + pull_[0] * time) + ny * (disc.vy + pull_[1] * time);
-    const bool is_guarded = guard_.holds_at_wall(since, std::fabs(normal), turning.radius);
-    double away = (is_guarded ? 1 : restitution) * std::fabs(normal);
+    // A disc that grows bounces as from a body that moves at the speed of its surface.
+    const double closing = std::fabs(outwards - normal);
+    const bool is_guarded = guard_.holds_at_wall(since, closing, turning.radius);
+    double away = outwards + (is_guarded ? 1 : restitution) * closing;
     // A disc that is pulled back leaves so fast that it stays away for a contact time, as at walls.
     double pull = -(nx * pull_[0] + ny * pull_[1]);
     const auto speed_along = [&] {
@@ -346,7 +347,7 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     if (pull > 0) away = std::max(away, guard_.least_departure(pull, turning.radius));
     disc.vx += (away - normal) * nx;
     disc.vy += (away - normal) * ny;
-    const double square = normal * normal;
+    const double square = closing * closing;
     const Loss loss = guard_.loss(0.5 * (1 - restitution * restitution) * square, square,
                                   is_guarded);
     if (!rubbing.acts()) return loss;
@@ -374,16 +375,15 @@ FixedBodies::Overlap FixedBodies::deepest_overlap(double x, double y, double rad
                                                   double least) const {
     Overlap deepest;
     double most = least;
-    visit_cells(cells_of({x, x, y, y}), [&](const Entry& image) {
+    visit_cells(cells_near({x, x, y, y}, radius), [&](const Entry& image) {
         const Shift shift = shift_of(image);
         const double overlap = overlap_of(bodies_[image.body], x - shift.x, y - shift.y, radius);
         if (!(overlap > most)) return;
         most = overlap;
         deepest = {overlap, image.body};
     });
-    if (container_.is_rectangle()) return deepest;
     // Outside of the container a disc overlaps the wall everywhere.
-    const double overlap = container_.outside(x, y) + radius;
+    const double overlap = container_.is_rectangle() ? -never : container_.outside(x, y) + radius;
     return overlap > most ? Overlap{overlap, first_bodies_.back()} : deepest;
 }
 

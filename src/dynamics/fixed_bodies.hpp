@@ -6,14 +6,17 @@
 //
 // A disc of radius r touches a fixed disc of radius R if their centres are r + R apart (the
 // predicate of pairs; a quartic where discs fall: falling_contact.hpp), a segment if it is r from
-// its line (a quadratic), and an arc from either side (arc_contact.hpp). The contact is a function
-// of the stored state alone. A grid of cells, built once, holds the bodies. A flight searches the
+// its line (a quadratic), and an arc from either side (arc_contact.hpp). The radius may grow
+// (growing_contact.hpp), but not where discs fall. The contact is a function of the stored state
+// alone. A grid of cells, built once, holds the bodies. A flight searches the
 // cells along its path, up to its first contact. In a periodic box the grid repeats itself, and a
 // body is also in the cells that its images cover. A stored state may be many boxes away: bodies
 // are shifted to it by whole box lengths.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -25,6 +28,7 @@
 #include "dynamics/arc_contact.hpp"
 #include "dynamics/contact_guard.hpp"
 #include "dynamics/container.hpp"
+#include "dynamics/disc_size.hpp"
 #include "dynamics/effects.hpp"
 #include "dynamics/loss.hpp"
 #include "dynamics/surface_table.hpp"
@@ -59,18 +63,18 @@ struct BodyTouch {
 
 class FixedBodies {
 public:
-    /// `effects` have times in micro-steps; no disc is larger than `largest_radius`.
+    /// `effects` have times in micro-steps; before discs grow none is larger than `largest_radius`.
     FixedBodies(const Box& box, double largest_radius, const Effects& effects);
 
-    /// The first body that a disc of that radius meets within these times. If the disc meets two
+    /// The first body that a disc of that size meets within these times. If the disc meets two
     /// bodies at the same time, the one with the lower number counts.
-    BodyContact first_contact(const DiscState& disc, double radius,
+    BodyContact first_contact(const DiscState& disc, const DiscSize& size,
                               const ContactTimes& times) const;
 
     /// Reflects a disc that meets the body with the contact's number `code` at `time`. The state is
-    /// advanced to `time` already, and the disc's last collision was `since` before. Returns the
-    /// loss for a mass of 1.
-    Loss rebound(DiscState& disc, std::uint32_t code, double time, double since,
+    /// advanced to `time` already, and the disc's last collision was `since` before. The surface of
+    /// the disc moves out at the speed `outwards`. Returns the loss for a mass of 1.
+    Loss rebound(DiscState& disc, std::uint32_t code, double time, double since, double outwards,
                  const Turning& turning) const;
 
     /// Where a disc whose state is at `time` touches the body with the contact's number `code`.
@@ -118,9 +122,16 @@ private:
         double width = 1, period = 0;
         std::int64_t n = 1;
 
-        std::int64_t cell_of(double place) const;
+        std::int64_t cell_of(double place) const {
+            const double cell = place / width;
+            return static_cast<std::int64_t>(
+                period != 0 ? std::floor(cell) : std::clamp(cell, 0.0, static_cast<double>(n - 1)));
+        }
         /// The number of the periodic copy of the box that holds a cell; 0 is the box itself.
-        std::int64_t box_of(std::int64_t cell) const;
+        std::int64_t box_of(std::int64_t cell) const {
+            if (period == 0 || (cell >= 0 && cell < n)) return 0;
+            return cell >= 0 ? cell / n : -((n - 1 - cell) / n);
+        }
     };
 
     void add_line(const Segment& segment, double slides);
@@ -129,8 +140,9 @@ private:
     void begin_row() { first_bodies_.push_back(static_cast<std::uint32_t>(bodies_.size())); }
     std::size_t row_of(std::uint32_t body) const;
     double overlap_of(const Body& body, double x, double y, double radius) const;
-    double contact_time(const DiscState& disc, const Body& body, double radius, Shift shift) const;
-    double line_delay(const Body& line, double radius, double dx, double dy, double wx,
+    double contact_time(const DiscState& disc, const Body& body, const DiscSize& size,
+                        Shift shift) const;
+    double line_delay(const Body& line, const DiscSize& size, double dx, double dy, double wx,
                       double wy) const;
     struct Normal {
         double x, y;    ///< normal that points away from the body
@@ -142,6 +154,7 @@ private:
     double slices_of(const DiscState& disc, double begin, double end) const;
     bool may_hold(const Body& body, std::int64_t column, std::int64_t row) const;
     Cells cells_of(const Extent& extent) const;
+    Cells cells_near(const Extent& extent, double radius) const;
     void sort_into_cells();
     template <class What> void visit_cells(const Cells& cells, const What& what) const;
     std::uint32_t code_of(const Entry& image, double x, double y) const;
@@ -157,7 +170,7 @@ private:
     std::size_t n_fixed_discs_;
     Container container_;
     Periods periods_;
-    double largest_radius_; ///< largest radius of a disc
+    double largest_radius_; ///< largest radius of a disc before it grows
     /// Fixed discs; then the line and the two ends of each segment, edge and arc
     std::vector<Body> bodies_;
     std::vector<std::uint32_t> first_bodies_; ///< first body of each row after the fixed discs

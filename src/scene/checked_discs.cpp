@@ -263,11 +263,9 @@ void check_generator(const SceneDraft& draft) {
         scene.generator = Generator::lattice;
         scene.warnings.push_back(
             fmt::format("random insertion stalls above a packing fraction of {}; the {} discs "
-                        "(packing fraction {:.4g}) start from a shaken lattice{}",
-                        largest_random_packing, scene.n_discs, scene.packing(),
-                        scene.effects.fixed_bodies.are_any()
-                            ? ""
-                            : "; discs.generator = \"compressed\" makes a random start"));
+                        "(packing fraction {:.4g}) start from a shaken lattice; "
+                        "discs.generator = \"compressed\" makes a random start",
+                        largest_random_packing, scene.n_discs, scene.packing()));
     }
     if (scene.generator == Generator::triangular) check_triangular(draft);
     if (scene.generator == Generator::lattice && !scene.effects.fixed_bodies.are_any() &&

@@ -57,8 +57,8 @@ public:
     }
 
 private:
-    /// The scene of one stretch, which is one step of one micro-step. Masses are equal, and walls
-    /// are elastic.
+    /// The scene of one stretch, which is one step of one micro-step. Masses are equal; walls and
+    /// obstacles are elastic.
     SceneParameters stretch() const {
         SceneParameters scene;
         scene.name = scene_.name;
@@ -71,6 +71,9 @@ private:
         for (std::size_t side = 0; side < boundary_names.size(); ++side)
             if (scene_.effects.boundaries[side].is_periodic())
                 scene.effects.boundaries[side].kind = BoundaryKind::periodic;
+        scene.effects.fixed_bodies = scene_.effects.fixed_bodies;
+        scene.effects.fixed_bodies.restitution = 1;
+        scene.effects.fixed_bodies.surface = {};
         scene.effects.growth = growth_;
         scene.steps = scene.sync_every = 1;
         return scene;

@@ -124,6 +124,36 @@ class Shapes(ProgramTest):
                                      "--report", f"{ranks}.json")
                     self.assertEqual(self.hash_of(f"{ranks}.json"), self.hash_of("1.json"))
 
+    def test_discs_are_compressed_and_grow_in_shapes_and_beside_obstacles(self):
+        """The check finds no disc outside or in another, and the bits are those of any shape."""
+        mixed = ("species = [{count = 80, radius = 0.4}, {count = 80, radius = 0.6}]\n"
+                 "generator = \"compressed\"")
+        gas = "count = 100\nradius = 0.3\nspeed = 0.2"
+        growth = "[effects.growth]\nrate = 0.02\n"
+        for name, scene in {
+                "round": ROUND.format(discs="packing = 0.78\ncount = 300\nspeed = 0.2\n"
+                                      "generator = \"compressed\"", effects="",
+                                      method="event-driven"),
+                "mixed": ROUND.format(discs=mixed, method="time-stepped",
+                                      effects=SEVERAL).replace('shape = "round"', ""),
+                "grow": ROUND.format(discs=gas, method="event-driven", effects=SEVERAL + growth
+                                     ).replace('shape = "round"', ""),
+                "grow round": ROUND.format(discs=gas, method="event-driven", effects=growth)
+                }.items():
+            with self.subTest(name):
+                self.write("scene.toml", scene)
+                for ranks, threads in (1, 1), (1, 2), (3, 1):
+                    self.run_program(ranks, "run", "scene.toml", "--steps", 80, "--check",
+                                     "--threads", threads, "--report", "r.json")
+                    report = self.report("r.json")
+                    if (ranks, threads) == (1, 1):
+                        first = report
+                    self.assertEqual(report["state_hash"], first["state_hash"])
+                self.assertGreater(first["pair_collisions"], 1000)
+                self.assertGreater(first["wall_collisions"], 100)
+                if "grow" in name:
+                    self.check_restart("scene.toml", ("--overwrite",), first=30, last=60)
+
     def test_the_push_on_a_round_wall_is_the_virial_of_the_gas(self):
         """The virial theorem for a smooth wall that centres touch at the distance R: push R is
         2 N kT and the sum of impulse times distance of pairs, 2 P A with the report's P.
@@ -279,7 +309,7 @@ largest_distance = 7
                 ("round.toml", "stadium\" needs a box that is longer", "box.shape=stadium"),
                 ("round.toml", "discs never meet the sides", "box.left.kind=open"),
                 ("round.toml", "these generators know nothing of obstacles",
-                 "discs.generator=compressed"),
+                 "discs.generator=legacy"),
                 ("round.toml", "no lattice of 350 discs of radius 0.5 has room", "discs.count=350",
                  "discs.generator=lattice"),
                 ("round.toml", "\"obstacle_forces\" has the wall's pressure",

@@ -34,12 +34,11 @@ std::vector<Rule> rules_of_growth() {
                  return has_growing_discs(s) &&
                         (is_rough(s) || s.effects.contact.kind == ContactKind::none);
              }),
-        rule("growing discs", "a force in flight, drag or obstacles",
-             "growing discs need straight flights in an empty box, on which contacts are found",
+        rule("growing discs", "a force in flight or drag",
+             "growing discs need straight flights, on which contacts are found",
              {"effects.growth.rate"},
              [](const SceneParameters& s) {
-                 return has_growing_discs(s) &&
-                        (!s.effects.are_flights_free() || has_fixed_bodies(s));
+                 return has_growing_discs(s) && !s.effects.are_flights_free();
              }),
         rule("growing discs", "sides that are no smooth walls at rest, and not periodic",
              "growing discs need sides that stay where they are, do not rub and let nothing out",

@@ -126,14 +126,13 @@ std::vector<Rule> rules_of_obstacles() {
                         (s.measurements->measures("wall_pressure") ||
                          s.measurements->measures("wall_exchange"));
              }),
-        rule("obstacles", "discs.generator = \"triangular\", \"compressed\" or \"legacy\"",
-             "these generators know nothing of obstacles; insert discs at random, place them on a "
-             "lattice, list them, or freeze some of them (discs.freeze)",
+        rule("obstacles", "discs.generator = \"triangular\" or \"legacy\"",
+             "these generators know nothing of obstacles; insert discs at random, compress them, "
+             "place them on a lattice, list them, or freeze some of them (discs.freeze)",
              {"discs.generator", "discs.packing", "discs.radius", "discs.species"},
              [](const SceneParameters& s) {
                  return s.effects.fixed_bodies.are_any() &&
-                        (s.generator == Generator::triangular ||
-                         s.generator == Generator::compressed || s.generator == Generator::legacy);
+                        (s.generator == Generator::triangular || s.generator == Generator::legacy);
              }),
     };
 }

@@ -32,10 +32,11 @@ Effects shaped(BoxShape shape) {
 /// Reflects `disc` at the first obstacle it comes to, without the one that it has just left.
 BodyContact reflect(const FixedBodies& obstacles, DiscState& disc, double radius,
                     std::uint32_t left = BodyContact::no_body) {
-    const BodyContact contact = obstacles.first_contact(disc, radius, {disc.tau, 1e9, true, left});
+    const BodyContact contact = obstacles.first_contact(disc, {radius},
+                                                        {disc.tau, 1e9, true, left});
     if (!contact.exists()) return contact;
     disc = {disc.x_at(contact.time), disc.y_at(contact.time), disc.vx, disc.vy, contact.time};
-    obstacles.rebound(disc, contact.body, contact.time, never, {nullptr, radius});
+    obstacles.rebound(disc, contact.body, contact.time, never, 0, {nullptr, radius});
     return contact;
 }
 
@@ -143,7 +144,7 @@ TEST_CASE("arcs: under gravity the first contact is that of small steps") {
         from_centre.x -= 50;
         from_centre.y -= 50;
         const double known = touch_by_steps(from_centre, g, radius, arc, 30);
-        const BodyContact found = obstacles.first_contact(disc, radius, {0, 30});
+        const BodyContact found = obstacles.first_contact(disc, {radius}, {0, 30});
         CHECK(found.exists() == (known < never));
         if (found.exists()) CHECK(found.time == Approx(known).margin(1e-6));
         n_found += found.exists();
@@ -179,8 +180,8 @@ TEST_CASE("arcs: in cells or one by one, the first contact is the same") {
                 for (const Effects& single : singles)
                     first = std::min(
                         first,
-                        FixedBodies(100, 0.5, single).first_contact(disc, 0.5, {0, 20}).time);
-                const BodyContact found = all.first_contact(disc, 0.5, {0, 20});
+                        FixedBodies(100, 0.5, single).first_contact(disc, {0.5}, {0, 20}).time);
+                const BodyContact found = all.first_contact(disc, {0.5}, {0, 20});
                 CHECK(found.time == first);
                 n_found += found.exists();
             }

@@ -23,9 +23,9 @@ Effects one_disc(double x, double y, double radius) {
 
 /// Reflects `disc` at the first obstacle it comes to.
 BodyContact reflect(const FixedBodies& obstacles, DiscState& disc, double radius = 1) {
-    const BodyContact contact = obstacles.first_contact(disc, radius, {disc.tau, 1e6});
+    const BodyContact contact = obstacles.first_contact(disc, {radius}, {disc.tau, 1e6});
     disc = {disc.x_at(contact.time), disc.y_at(contact.time), disc.vx, disc.vy, contact.time};
-    obstacles.rebound(disc, contact.body, contact.time, never, {nullptr, radius});
+    obstacles.rebound(disc, contact.body, contact.time, never, 0, {nullptr, radius});
     return contact;
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("obstacles: a disc is reflected as from a mirror") {
         DiscState disc = flying(20, 50, 1, 0);
         CHECK(reflect(obstacles, disc).time == 19);
         CHECK(disc.vx == -1);
-        CHECK(!obstacles.first_contact(flying(20, 51.5, 1, 0), 1, {0, 1e6}).exists());
+        CHECK(!obstacles.first_contact(flying(20, 51.5, 1, 0), {1}, {0, 1e6}).exists());
     }
 }
 
@@ -117,15 +117,15 @@ TEST_CASE("obstacles: looked for in cells or one by one, the first contact is th
             BodyContact first;
             for (const Effects& single : singles) {
                 const BodyContact contact =
-                    FixedBodies(100, 0.5, single).first_contact(disc, 0.5, {tau, to});
+                    FixedBodies(100, 0.5, single).first_contact(disc, {0.5}, {tau, to});
                 if (contact.time < first.time) first = contact;
             }
-            const BodyContact found = all.first_contact(disc, 0.5, {tau, to});
+            const BodyContact found = all.first_contact(disc, {0.5}, {tau, to});
             CHECK(found.time == first.time);
             n_found += found.exists();
             const double half = (tau + to) / 2; // two searches find the same
-            const BodyContact early = all.first_contact(disc, 0.5, {tau, half}),
-                              late = all.first_contact(disc, 0.5, {half, to, false});
+            const BodyContact early = all.first_contact(disc, {0.5}, {tau, half}),
+                              late = all.first_contact(disc, {0.5}, {half, to, false});
             CHECK((early.exists() ? early.time : late.time) == found.time);
         }
         CHECK(n_found > 100);
