@@ -174,7 +174,7 @@ private:
     /// Motion since the last inspection due to an acceleration that changes in time
     std::array<Swayed, 2> swayed_{};
     double total_mass_ = 0, smallest_mass_ = 1;
-    /// Largest speed of oscillating walls, and their largest acceleration towards a disc
+    /// Largest speed of walls that swing, and their largest acceleration towards a disc
     double wall_speed_ = 0, wall_pull_ = 0;
     double work_of_images_ = 0; ///< work of images on this rank since the last inspection
     /// Largest speed along y of the discs between sheared sides, now or at the last inspection

@@ -48,7 +48,7 @@ struct ContactPair {
                is_same_number(a.friction, b.friction);
     }
 };
-/// A row of `contacts` of a side or of the obstacles: numbers for discs of one row of
+/// A row of `contacts` of a side or of the fixed bodies: numbers for discs of one row of
 /// `discs.species`, counted from 1. NaN: the number of the surface for all discs is used.
 struct SurfaceContact {
     double species = 1;
@@ -197,8 +197,8 @@ enum class BoxShape { rectangle, round, stadium };
 
 /// Contacts with surfaces that depend on the species of the disc (surface_table.hpp).
 struct SurfaceContacts {
-    /// The sides in the order of Effects::boundaries, then the obstacles
-    static constexpr std::size_t n_surfaces = 5, obstacles = 4;
+    /// The sides in the order of Effects::boundaries, then the fixed bodies
+    static constexpr std::size_t n_surfaces = 5, fixed_bodies = 4;
 
     std::array<std::vector<SurfaceContact>, n_surfaces> rows{};
 

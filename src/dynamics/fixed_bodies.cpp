@@ -38,7 +38,7 @@ double fall_delay(double distance, double rate, double pull, bool is_on_side) {
 } // namespace
 
 FixedBodies::FixedBodies(const Box& box, double largest_radius, const Effects& effects)
-    : surface_(effects, SurfaceContacts::obstacles), guard_(effects, largest_radius),
+    : surface_(effects, SurfaceContacts::fixed_bodies), guard_(effects, largest_radius),
       pull_{effects.acceleration().x, effects.acceleration().y},
       n_fixed_discs_(effects.fixed_bodies.discs.size()),
       container_(effects.fixed_bodies.shape, box), periods_(effects.periods(box)),

@@ -196,7 +196,7 @@ void LastingContactFinder::add_walls(Search& search) const {
 /// The surface of a fixed body moves counterclockwise around it.
 void LastingContactFinder::add_fixed_bodies(Search& search) const {
     const FixedBodyList& fixed_bodies = effects_.fixed_bodies;
-    const SurfaceTable& surface = surfaces_[SurfaceContacts::obstacles];
+    const SurfaceTable& surface = surfaces_[SurfaceContacts::fixed_bodies];
     LastingContact contact;
     contact.velocity = -fixed_bodies.surface.velocity;
     contact.body = 3;
@@ -235,7 +235,7 @@ void LastingContactFinder::add_arc(Search& search, const Arc& arc, LastingContac
     ++contact.body;
     const double far = arc.radius + search.largest_radius + search.widest_gap,
                  velocity = effects_.fixed_bodies.surface.velocity;
-    const SurfaceTable& surface = surfaces_[SurfaceContacts::obstacles];
+    const SurfaceTable& surface = surfaces_[SurfaceContacts::fixed_bodies];
     const ArcSpan span = span_of(arc);
     const PointOfArc from = point_of(arc, arc.from), to = point_of(arc, arc.to);
     search.in_rectangle(arc.x - far, arc.x + far, arc.y - far, arc.y + far, [&](std::uint32_t i) {

@@ -17,7 +17,7 @@ SurfaceTable::Factors factors_of(const SurfaceNumbers& numbers, const ContactEff
 } // namespace
 
 SurfaceNumbers common_numbers(const Effects& effects, std::size_t surface) {
-    if (surface == SurfaceContacts::obstacles)
+    if (surface == SurfaceContacts::fixed_bodies)
         return {effects.fixed_bodies.restitution, effects.fixed_bodies.surface};
     const Boundary& side = effects.boundaries[surface];
     return {side.restitution, side.surface};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How contacts with sides and obstacles depend on the species of the disc: coefficients for some
+// How contacts with sides and fixed bodies depend on the species of the disc: coefficients for some
 // rows of `discs.species`, and the common coefficients of the surface for all other discs.
 //
 // A disc's row follows from its id, as in pair_table.hpp. A surface without rows costs one test of
@@ -25,7 +25,7 @@ struct SurfaceNumbers {
     bool rubs() const { return surface.rubs(); }
 };
 
-/// The coefficients of a side, or of the obstacles (SurfaceContacts), for discs without a row of
+/// The coefficients of a side, or of the fixed bodies (SurfaceContacts), for discs without a row of
 /// their own.
 SurfaceNumbers common_numbers(const Effects& effects, std::size_t surface);
 /// The coefficients for discs that `row` of this surface names.

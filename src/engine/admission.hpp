@@ -19,8 +19,8 @@
 
 namespace carrom {
 
-/// The box, the discs and the obstacles that decide where a disc can come in. All states are those
-/// of a sync, in the box's own coordinates.
+/// The box, the discs and the fixed bodies that decide where a disc can come in. All states are
+/// those of a sync, in the box's own coordinates.
 struct AdmissionGround {
     const Communicator& communicator;
     const Box& box;

@@ -127,7 +127,7 @@ void BlockCuts::cut_by_work(const CellBlock& cells, const CutNeeds& needs, const
             shares_ = shares;
         }
         // The square root damps the change, because halos change with the cuts, so shares that
-        // follow the full ratio would oscillate.
+        // follow the full ratio would overshoot each time.
         for (std::size_t k = 0; k < work_.size(); ++k)
             shares[numbers_[k]] *= std::sqrt(std::clamp(mean / std::max(work_[k], 1.0), 0.5, 2.0));
     }

@@ -58,7 +58,7 @@ public:
 
 private:
     /// The scene of one stretch, which is one step of one micro-step. Masses are equal; walls and
-    /// obstacles are elastic.
+    /// fixed bodies are elastic.
     SceneParameters stretch() const {
         SceneParameters scene;
         scene.name = scene_.name;

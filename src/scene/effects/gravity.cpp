@@ -77,7 +77,8 @@ bool are_stopped(const SceneParameters& s, std::size_t low) {
     const auto takes_energy = [&](std::size_t surface) { return does_take_energy(e, surface); };
     const bool is_energy_taken = are_pairs_lossy(e) || kind == ThermostatKind::rescale ||
                                  any(takes_energy) ||
-                                 (has_fixed_bodies(s) && takes_energy(SurfaceContacts::obstacles));
+                                 (has_fixed_bodies(s) &&
+                                  takes_energy(SurfaceContacts::fixed_bodies));
     const bool is_momentum_taken = has_fixed_bodies(s) ||
                                    any([&](std::size_t side) { return does_rub(e, side); });
     return are_thermal || (is_energy_taken && is_momentum_taken);

@@ -65,7 +65,9 @@ std::vector<Key> keys_of_rubbing() {
              return s.effects.fixed_bodies.surface.tangential_restitution != -1;
          }},
         {"without effects.obstacles.tangential_restitution above -1",
-         [](const SceneParameters& s) { return does_rub(s.effects, SurfaceContacts::obstacles); }},
+         [](const SceneParameters& s) {
+             return does_rub(s.effects, SurfaceContacts::fixed_bodies);
+         }},
         "Velocity of the surface, counterclockwise around the body, which stays where it is. Arcs "
         "and the wall of a 'box.shape' turn around their centre.");
     return all;

@@ -23,27 +23,28 @@ namespace {
 constexpr std::size_t of_species = 0, of_restitution = 1, of_tangential = 2;
 
 std::string table_of_surface(std::size_t surface) {
-    return surface == SurfaceContacts::obstacles ? "effects.obstacles"
-                                                 : fmt::format("box.{}", boundary_names[surface]);
+    return surface == SurfaceContacts::fixed_bodies
+               ? "effects.obstacles"
+               : fmt::format("box.{}", boundary_names[surface]);
 }
 
 std::string contacts_key(std::size_t surface) { return table_of_surface(surface) + ".contacts"; }
 
 std::string name_of_surface(std::size_t surface) {
-    return surface == SurfaceContacts::obstacles
+    return surface == SurfaceContacts::fixed_bodies
                ? std::string("obstacles")
                : fmt::format("the {} wall", boundary_names[surface]);
 }
 
 bool can_reflect(const SceneParameters& s, std::size_t surface) {
-    if (surface == SurfaceContacts::obstacles) return has_fixed_bodies(s);
+    if (surface == SurfaceContacts::fixed_bodies) return has_fixed_bodies(s);
     const BoundaryKind kind = s.effects.boundaries[surface].kind;
     return kind == BoundaryKind::wall || kind == BoundaryKind::moving ||
            kind == BoundaryKind::oscillating;
 }
 
 Need species_and(std::size_t surface) {
-    const std::string other = surface == SurfaceContacts::obstacles
+    const std::string other = surface == SurfaceContacts::fixed_bodies
                                   ? "obstacles"
                                   : table_of_surface(surface) +
                                         ".kind = \"wall\", \"moving\" or \"oscillating\"";
