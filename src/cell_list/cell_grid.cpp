@@ -269,7 +269,7 @@ void CellGrid::set_apart(double speed) {
             longest_squared = std::max(longest_squared, squared);
             apart_.push_back(index_of(static_cast<std::uint32_t>(slot)));
             kept.insert(kept.end(), {x[slot], y[slot], vx[slot], vy[slot]});
-            // Puts this flight far from all others, and lets it move away, because the filter does
+            // Puts this flight far from all others, moving away from them, because the filter does
             // not reject pairs with zero relative velocity.
             x[slot] = y[slot] = 1e6f * static_cast<float>(apart_.size());
             vx[slot] = vy[slot] = 1e3f * static_cast<float>(apart_.size());
@@ -296,7 +296,7 @@ CellGrid::Cell CellGrid::cell_of(LocalIndex own_index) const {
 std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
     constexpr double margin = 1e-6; // because cells' ends are rounded
     const auto corner = turned(geometry_.axis, geometry_.low, geometry_.across_low);
-    // The range first .. end - 1 of those of n cells that lie within low .. high; the first cell
+    // The range of those of n cells that lie within low .. high; the first cell
     // begins at `origin`. The first and the last cell also contain discs from outside of the grid.
     const auto cells_within = [this](double low, double high, double origin, int n) {
         const double from = (low - origin) / geometry_.cell_width + margin,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cell list: discs sorted into square cells by their positions at a window's anchor. Cells are
 // numbered column by column. So the cells of one column within reach of a disc are one contiguous
-// range of slots, which is read 16 lanes at a time.
+// range of slots, which is read up to 16 lanes at a time.
 //
 // Own discs are sorted in memory: the slot of an own disc is its index, so neighbours in space are
 // neighbours in memory. Discs of the halo stay in the order of arrival. They have their own slots,
@@ -27,7 +27,7 @@
 namespace carrom {
 
 /// The positions of cells. Columns follow each other along `axis`, rows across it. Discs outside of
-/// the grid belong to its border cells, which never puts two discs further apart.
+/// the grid belong to its border cells, which never adds cells between two discs.
 struct GridGeometry {
     Axis axis = Axis::x;
     double low = 0, across_low = 0; ///< lower ends of the first column and row
@@ -103,8 +103,8 @@ public:
     void sort(std::span<DiscState> own, const GridGeometry& geometry, double anchor, double time,
               double duration, int n_threads, const Periods& periods = {},
               const Companions& companions = {});
-    /// Sorts into cells by the positions at `time`, without flights. Then `lanes()` is empty, so
-    /// searches find nothing.
+    /// Sorts into cells by the positions at `time`, without flights. Then `lanes()` is empty, and
+    /// filters of flights must not be called.
     void sort_cells(std::span<DiscState> own, const GridGeometry& geometry, double time,
                     int n_threads, const Periods& periods = {}, const Companions& companions = {});
     /// Sorts the halo's discs, which follow the own ones in memory, into cells.
@@ -127,7 +127,7 @@ public:
     std::size_t n_own() const { return n_own_; }
     bool has_halo() const { return !halo_.is_empty(); }
 
-    /// Flights of own discs by index. `halo_lanes` has those of the halo by slot.
+    /// Flights of own discs by index; `halo_lanes` are flights of halo discs by slot.
     FlightLanes lanes() const { return lanes_of(lanes_, lane_length_); }
     FlightLanes halo_lanes() const { return lanes_of(halo_lanes_, halo_.size() + filter_padding); }
     LocalIndex halo_index(std::uint32_t slot) const {

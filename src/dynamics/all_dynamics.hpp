@@ -21,7 +21,7 @@ using WalledDynamics = Dynamics<WalledSpace, EqualBodies>;
 using WalledMixedDynamics = Dynamics<WalledSpace, SpeciesBodies>;
 using PeriodicDynamics = Dynamics<PeriodicSpace, EqualBodies>;
 using PeriodicMixedDynamics = Dynamics<PeriodicSpace, SpeciesBodies>;
-/// For one or several species. The box may have walls only; then no images are used.
+/// For one or several species, in boxes with or without periodic sides.
 using GrowingDynamics = Dynamics<PeriodicSpace, GrowingBodies>;
 /// For one or several species.
 using ShearedDynamics = Dynamics<ShearedSpace, SpeciesBodies>;

@@ -14,8 +14,8 @@ namespace carrom {
 
 namespace {
 
-/// The time at which the flight gets further than `reach` from the centre; `never` if the disc is
-/// already further away than `wall`.
+/// The time at which a flight leaves the circle of radius `reach`; `never` if it does not enter it,
+/// or if the disc is beyond `wall` and moves away.
 double way_out(const ArcFlight& f, double reach, double wall) {
     const double b = f.dx * f.wx + f.dy * f.wy, a = f.wx * f.wx + f.wy * f.wy;
     if (!(reach > 0) || !(a > 0)) return never;
@@ -30,8 +30,8 @@ double way_out(const ArcFlight& f, double reach, double wall) {
     return b < 0 ? (root - b) / a : (reach - distance) * (reach + distance) / (b + root);
 }
 
-/// The time at which a disc that grows inside the circle of radius `wall` touches it; `never` if
-/// there is none. In lengths divided by 1 - g t, with g = rate / (wall - radius), and with the
+/// The time at which a disc that grows inside the circle of radius `wall` touches it, or
+/// `never`. In lengths divided by 1 - g t, with g = rate / (wall - radius), and with the
 /// clock u = t / (1 - g t), the disc has a constant radius and flies straight
 /// (growing_contact.hpp).
 double growing_way_out(const ArcFlight& f, const DiscSize& size, double wall) {

@@ -2,7 +2,7 @@
 // Computes when a disc first touches an arc, a part of a circle without thickness. A disc of radius
 // r touches the outer face of an arc of radius R when its centre comes closer than R + r to the
 // arc's centre. It touches the inner face when its centre gets further away than R - r. Both hold
-// only in directions of the arc. Its ends are separate bodies: points (fixed_bodies.hpp).
+// only in directions that the arc covers. Its ends are separate bodies: points (fixed_bodies.hpp).
 //
 // On a straight flight both times are roots of the same quadratic, computed without cancellation,
 // also while the disc grows: the circle of radius R - r shrinks then (growing_contact.hpp).

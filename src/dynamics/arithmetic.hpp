@@ -34,7 +34,7 @@ public:
     static double tolerance(const Box& box, double diameter) {
         return std::max(1e-12 * diameter, 16 * 0x1p-52 * box.longest());
     }
-    /// The largest gap between discs in a contact, caused by the rounding of positions.
+    /// Half the largest gap between discs in a contact, caused by the rounding of positions.
     static constexpr double slack() { return 0; }
     static constexpr double place_rounding() { return 0; }
     /// Overlapping discs collide if they approach each other.

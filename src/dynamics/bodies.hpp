@@ -8,8 +8,8 @@
 //                   (1 + rate t), as in the method of Lubachevsky and Stillinger (J. Stat.
 //                   Phys. 60, 561 (1990)); event-driven method only. Radii follow from the time
 //                   since the scene's start, so states do not contain them. Collisions follow the
-//                   law of other discs, for velocities of moving surfaces. If the rate is 0,
-//                   an effect changes all radii by one factor at syncs (dynamics/sync_effect.hpp).
+//                   law of other discs, for the velocities of the surfaces. If the rate is 0,
+//                   an effect may change all radii by one factor at syncs (sync_effect.hpp).
 #pragma once
 
 #include <concepts>

@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// The rest time, at most an eighth of a period, so that the acceleration changes little in it.
+/// The value of `rest_times_`, at most an eighth of a period, in which acceleration changes little.
 double rest_time_at(const Boundary& side, const ContactGuard& guard, double acceleration,
                     double sway, double period, double radius) {
     if (sway != 0)
@@ -73,10 +73,10 @@ Extent Boundaries::walls_between(double begin, double end) const {
     // A curve deviates from its chord by at most an eighth of (end - begin)^2 times the largest
     // acceleration, which is the one at the end.
     const double eighth = std::pow((end - begin) / fall_.slowing_at(end), 2) / 8;
-    // A disc departs where its centre is a radius beyond an open side. The line where the largest
-    // disc departs is two of its radii outside of the position where bounds for discs of every
-    // radius begin. After a collision with an oscillating wall a disc is at most as fast as the
-    // wall, which limits its distance from the wall's highest position. If the acceleration
+    // A disc departs where its centre is a radius beyond an open side. There `first` and
+    // `last` are two radii of the largest disc beyond the side, and are moved back to the side,
+    // where tiny discs depart. After a collision with an oscillating wall a disc is at most as fast
+    // as the wall, which limits its distance from the wall's highest position. If the acceleration
     // changes, a wall may speed up inwards. A disc hit by the wall then gets at most as far as a
     // wall under the largest constant acceleration.
     const auto bend = [&](std::size_t side) {

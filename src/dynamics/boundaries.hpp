@@ -5,9 +5,9 @@
 // Times and places are those of the falling frame (falling_frame.hpp). In it a wall at w0 that
 // moves with u is at w(t) = (w0 + u t) - (g/2 t) t, with the velocity u - g t. Its distance to a
 // disc is a quadratic, solved without subtracting nearly equal numbers. For g = 0 and u = 0 the
-// formulas are those of the plain dynamics, bit for bit. With drag in the clock s, t = s + c F(s),
-// the wall is at (w0 + u s) - (g - c u) F(s). An oscillating wall moves about such a wall
-// (oscillation.hpp).
+// formulas are those of the plain dynamics, bit for bit. With drag of rate c and its clock s,
+// where t = s + c F(s), it is at (w0 + u s) - (g - c u) F(s). An oscillating wall moves about such
+// a line (oscillation.hpp).
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ public:
     /// Bounds that lie inside the walls throughout [begin, end]. They are narrower than the walls
     /// at both ends by the deviation of the walls' paths from straight lines; see Dynamics.
     Extent walls_between(double begin, double end) const;
-    /// When the disc meets a side of this axis, or `never`.
+    /// The time at which the disc meets a side of this axis, or `never`.
     double wall_time(const DiscState& disc, Axis axis, const Body& body) const {
         return meeting(disc, axis, body).time;
     }
@@ -107,8 +107,8 @@ private:
         return side % 2 == 0 ? from_line : length_of(side) - from_line;
     }
     /// Position of the wall for the centre of a disc of this radius when it touches the wall, or
-    /// has just left through an open side. For an oscillating wall this function and the next two
-    /// describe the line about which it oscillates.
+    /// has just left through an open side. For an oscillating wall this function and
+    /// `wall_velocity` describe the line about which it oscillates.
     double wall_at(std::size_t side, double time, double radius) const {
         const double place = departure_or_touch(side, radius) + moved_[side];
         const double fallen = fall_.fallen(pull_at(side), time);
@@ -116,7 +116,7 @@ private:
             return (place + speeds_[side] * time) - fallen;
         return (place + speeds_[side] * time) - (fallen + fall_.sway().at(side / 2, time).way);
     }
-    /// Whether the pull at the side changes in time.
+    /// Whether the acceleration normal to the side changes in time.
     bool sways_along(std::size_t side) const { return fall_.sway().acts_along(side / 2); }
     /// The acceleration along +x or +y of discs near the wall, relative to the wall. It includes
     /// the drag on discs that a moving wall pushes.
@@ -172,7 +172,7 @@ private:
     std::array<double, 2> pull_, sways_;
     FallingFrame fall_;
     std::array<Oscillation, 4> oscillations_{};
-    /// Time in which a disc that rests at the wall bounces once and is back
+    /// The duration of one small bounce of a disc that rests at the wall
     std::array<double, 4> rest_times_{};
     std::array<SurfaceTable, 4> surfaces_{};
 };

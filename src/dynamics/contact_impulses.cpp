@@ -41,7 +41,7 @@ struct ContactImpulses::Contact {
     std::int64_t body = -1; ///< LastingContact::body
     double nx = 0, ny = 0;
     double friction = 0, velocity = 0;
-    double approach = 0; ///< the largest allowed normal velocity
+    double approach = 0; ///< the largest allowed speed of approach
     double mass = 0;     ///< effective mass: 1 over the sum of both inverse masses
     double height = 0;
     double distance = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact dynamics at a sync: impulses that keep slow discs from colliding until the next sync.
 //
-// A disc falls by g T^2 / 2 between two syncs. A disc that lies on others would so collide again
+// A disc falls by g T^2 / 2 between two syncs. A disc that lies on others would collide again
 // and again. Instead it gets at the sync the impulse that its supports give it in the whole time T,
 // as in the time-stepping scheme of contact dynamics (Moreau 1988; Jean, Comput. Methods Appl.
 // Mech. Eng. 177, 235 (1999)). With w = v + g T / 2, the mean velocity until the next sync,
@@ -34,7 +34,7 @@
 
 namespace carrom {
 
-/// Whether discs fall along periodic sides, so that discs may flow for ever.
+/// Whether discs fall along a periodic axis, so that they may flow for ever.
 bool may_flow_on(const Effects& effects);
 
 /// The impulse of a contact, from which the solution at the next sync begins. `b` is a disc's id,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What discs do: a space, bodies and a law, and the walls and fixed bodies that discs meet.
+// The dynamics of discs: a space, bodies and a law, and the walls and fixed bodies that discs meet.
 //
 //        space (space.hpp)         which image of a disc another disc meets, and where it is
 //        bodies (bodies.hpp)       radius, mass, speed of the surface
 //        law (law.hpp)             how a collision changes velocities and spins
 //      + arithmetic                precision and formula of contacts (arithmetic.hpp)
 //        sides, fixed bodies,
-//        flight                    what else discs meet, and in which frame (surroundings.hpp)
+//        flight                    walls, fixed bodies, and the frame of flights (surroundings.hpp)
 //
 // Each is a value with a small concept in its own header. The code that uses the first four is in
 // motion.hpp, and the code for everything else that discs meet is here. Kernels take a dynamics as
@@ -78,7 +78,7 @@ public:
         if constexpr (OfBodies::grow) bodies_.resize(size);
     }
 
-    // Questions about the scene.
+    // Properties of the scene.
 
     /// Whether discs can meet walls or fixed bodies.
     bool has_walls() const { return space_.has_sides() || has_fixed_bodies(); }
@@ -115,7 +115,7 @@ public:
     Extent walls_between(double begin, double end) const {
         return sides_.walls_between(begin, end);
     }
-    /// When the disc meets a side of this axis, or `never`.
+    /// The time at which the disc meets a side of this axis, or `never`.
     double wall_time(const DiscState& disc, Axis axis) const {
         return sides_.wall_time(disc, axis, bodies_.at(disc, disc.tau));
     }

@@ -30,7 +30,7 @@ namespace carrom {
 /// The law of contact of two discs.
 enum class ContactKind { elastic, none, restitution, rough };
 
-/// Whether two numbers of rows are equal. NaN stands for a number that a row does not give.
+/// Whether two entries of rows are equal. NaN stands for an entry that a row leaves out.
 inline bool is_same_number(double a, double b) {
     return a == b || (std::isnan(a) && std::isnan(b));
 }
@@ -147,14 +147,14 @@ struct Boundary {
 /// The order of Effects::boundaries: the low and the high side of x, then of y.
 inline constexpr std::array<const char*, 4> boundary_names = {"left", "right", "bottom", "top"};
 
-/// A uniform acceleration, as gravity gives.
+/// A uniform acceleration, such as gravity.
 struct Acceleration {
     double x = 0, y = 0;
     // A part that changes in time, amplitude sin(2 pi t / period + phase), with t since the scene's
     // start (sway.hpp):
     double amplitude_x = 0, amplitude_y = 0;
     double period = 1;
-    double phase_x = 0, phase_y = 0; ///< phases at the scene's start
+    double phase_x = 0, phase_y = 0; ///< phases at the scene's start, in radians
 
     bool is_steady() const { return x != 0 || y != 0; }
     bool sways() const { return amplitude_x != 0 || amplitude_y != 0; }
@@ -361,7 +361,7 @@ struct Effects {
     }
     /// The factor by which radii have grown from the scene's start to `time`.
     double size_at(double time) const { return 1 + growth * time; }
-    /// Takes radii that have grown by the factor `size` as the new radii at the start.
+    /// Restarts growth: radii that have grown by the factor `size` become those at the start.
     void begin_at(double size) { growth /= size; }
     bool are_any() const {
         return std::apply([](const auto&... all) { return (is_feature_on(all) || ...); },
@@ -379,7 +379,7 @@ std::string description(const std::vector<Species>& species);
 
 /// Positions of the walls at `time` since the scene's start; `box` is the box at the start.
 Extent extent_at(const Effects& effects, const Box& box, double time);
-/// The lines of the walls; an oscillating wall's is moved inwards by this many of its amplitudes.
+/// The mean positions of the walls, moved inwards by `amplitudes_inwards` times their amplitudes.
 Extent extent_of_lines(const Effects& effects, const Box& box, double time,
                        double amplitudes_inwards = 0);
 

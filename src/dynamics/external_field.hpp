@@ -121,7 +121,7 @@ struct ExternalField {
     FieldPoint at(double x, double y, const Box& box) const;
     /// Bounds the second derivative along any direction, for a disc of strength 1.
     double largest_curvature(const Box& box) const;
-    /// An upper estimate of the energy that a disc of strength 1 can gain in the box.
+    /// An estimate of the energy that a disc of strength 1 can gain; a trap counts as centred.
     double depth(const Box& box) const;
     double largest_strength() const;
 

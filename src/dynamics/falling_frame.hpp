@@ -49,8 +49,8 @@ double dragged_fall(double rate, double clock);
 /// The derivative of F, s / (1 - c s).
 inline double dragged_fall_speed(double rate, double clock) { return clock / (1 - rate * clock); }
 
-/// Like fall_delay, for distance + velocity s + pull F(s), on drag's clock from now on. Contacts at
-/// which velocities are below a hundredth are ignored, because a sync comes before them.
+/// Like fall_delay, for distance + velocity s + pull F(s), on drag's clock from now on. Contacts
+/// after drag has cut velocities to a hundredth are ignored, because a sync is earlier.
 double dragged_fall_delay(double distance, double velocity, double pull, double rate);
 
 /// The frame that falls with the discs, and its clock, which gives the times since the last sync.
@@ -70,7 +70,7 @@ public:
     bool slows() const { return drag_ != 0; }
     bool is_on() const { return acceleration_.is_on() || drag_ != 0; }
 
-    /// How far a disc under the acceleration `g` has fallen, and its speed divided by g.
+    /// How far a disc under the acceleration `g` falls; `falling_time` is its speed divided by g.
     double fallen(double g, double time) const {
         if (drag_ == 0 || g == 0) return (0.5 * g * time) * time;
         return g * dragged_fall(drag_, time);
@@ -103,7 +103,7 @@ public:
         return std::fabs(
             fallen(along(axis, acceleration_.largest_x(), acceleration_.largest_y()), time));
     }
-    /// The largest speed of the frame, in its own clock.
+    /// An upper bound of the speed of the frame at `time`, in its own clock.
     double speed_gained_at(double time) const {
         return (acceleration_.largest_x() + acceleration_.largest_y()) * falling_time(time);
     }

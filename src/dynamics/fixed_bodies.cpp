@@ -67,7 +67,7 @@ void FixedBodies::add_line(const Segment& segment, double slides) {
     bodies_.push_back({segment.x1, segment.y1, 0});
 }
 
-/// Free ends do not slide, because arcs turn around centres. Discs meet ends in walls from inside.
+/// Ends of the scene's arcs do not slide. Ends in the box's wall slide as seen from inside: -1.
 void FixedBodies::add_arc(const Arc& arc, bool is_of_box) {
     Body face{arc.x, arc.y, arc.radius};
     face.is_arc = true;
@@ -221,7 +221,7 @@ double FixedBodies::line_delay(const Body& line, const DiscSize& size, double dx
     return first;
 }
 
-/// A function of the state only: the first time at which the distance is not positive and falls.
+/// The first time at which the distance is not positive and falls. It depends on the state alone.
 double FixedBodies::contact_time(const DiscState& disc, const Body& body, const DiscSize& size,
                                  Shift shift) const {
     const bool falls = pull_[0] != 0 || pull_[1] != 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When two discs touch that fly freely while they grow (docs/understanding/effects.md, section 15).
+// Computes when free discs touch while they grow (docs/understanding/effects.md, section 15).
 //
 // All radii grow as 1 + g t. In lengths divided by 1 + g t, and with the clock u = t / (1 + g t),
 // discs keep their size, and d + w t becomes d + (w - g d) u, so they still fly straight. So the

@@ -18,8 +18,8 @@ double friction_of(ContactKind kind, const PairFactors& pair) {
 
 } // namespace
 
-/// Numbers of the cells from `low` to `high` along one axis. In a periodic box each cell occurs
-/// once.
+/// The cells along one axis. `visit` gives the numbers of those from `low` to `high`, each once,
+/// also in a periodic box.
 class CellLine {
 public:
     CellLine(double length, double width, double most, bool is_periodic)
@@ -162,7 +162,7 @@ void LastingContactFinder::add_pairs(Search& search) const {
     }
 }
 
-/// Sets the disc, which is disc i, and the friction of a contact with a fixed body.
+/// Sets the disc's index i and the friction of a contact with a wall or a fixed body.
 void LastingContactFinder::begin_at(const SurfaceTable& surface, std::uint32_t i,
                                     const HeapDisc& disc, LastingContact& contact) {
     contact.a = i;
@@ -230,7 +230,7 @@ void LastingContactFinder::add_fixed_bodies(Search& search) const {
     for (const Arc& arc : all_arcs(fixed_bodies, box_)) add_arc(search, arc, contact);
 }
 
-/// If an arc's surface moves counterclockwise, a disc inside sees the inner face move clockwise.
+/// The tangent of a contact turns counterclockwise around the arc's centre only for discs inside.
 void LastingContactFinder::add_arc(Search& search, const Arc& arc, LastingContact& contact) const {
     ++contact.body;
     const double far = arc.radius + search.largest_radius + search.widest_gap,

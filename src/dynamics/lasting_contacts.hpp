@@ -17,7 +17,7 @@
 
 namespace carrom {
 
-/// The state of a disc at a sync, which all ranks know.
+/// The state of a disc at a sync, of which all ranks have a copy.
 struct HeapDisc {
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;

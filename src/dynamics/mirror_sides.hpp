@@ -31,7 +31,7 @@ public:
     Extent extent_at(double /*time*/) const { return {0, box_.x, 0, box_.y}; }
     Extent walls_between(double /*begin*/, double /*end*/) const { return {0, box_.x, 0, box_.y}; }
 
-    /// When the disc meets a side of this axis, or `never`.
+    /// The time at which the disc meets a side of this axis, or `never`.
     double wall_time(const DiscState& disc, Axis axis, const Body& /*body*/) const {
         const State d(disc);
         return d.tau + walls(axis).delay(along(axis, d.x, d.y), along(axis, d.vx, d.vy));

@@ -43,7 +43,7 @@ public:
     /// From now on radii and masses are read from the table of `species`.
     void look_up_species_in(SpeciesView species) { bodies_.look_up_in(species); }
 
-    // Questions about the scene.
+    // Properties of the scene.
 
     CARROM_DEVICE bool has_pairs() const { return !have_effects || law_.has_pairs(); }
     CARROM_DEVICE bool has_spin() const { return have_effects && law_.has_spin(); }
@@ -59,7 +59,7 @@ public:
     CARROM_DEVICE double radius() const { return radius_; }
     CARROM_DEVICE double diameter() const { return 2 * radius_; }
     CARROM_DEVICE double tolerance() const { return tolerance_; }
-    /// The largest gap between discs in a contact.
+    /// Half the largest gap between discs in a contact: searches enlarge each radius by it.
     CARROM_DEVICE double slack() const { return space_.slack() + arithmetic_.slack(); }
     /// The largest distance between centres in a contact.
     CARROM_DEVICE double search_diameter() const { return diameter() + 2 * slack(); }

@@ -96,7 +96,7 @@ private:
     double from_line_at(double s) const {
         return (distance + rate * s) + (0.5 * wall.pull_ * s) * s;
     }
-    /// The rate of the distance. At s = 0 after a rebound it is exactly the rate after that.
+    /// The rate of the distance. At s = 0 it is exactly `from_wall`, also just after a rebound.
     double slope_at(double s, const WallMotion& then) const {
         return (from_wall + wall.pull_ * s) - wall.sign_ * (then.velocity - now.velocity);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When two freely flying discs touch. All decisions rest on this predicate
+// Computes when two freely flying discs touch. All decisions rest on this predicate
 // (docs/understanding/method.md, section 4).
 //
 // The discriminant is taken as (sqrt(A) sigma - |X|)(sqrt(A) sigma + |X|) with the cross product X

@@ -2,8 +2,8 @@
 // The coefficients of contacts that depend on the species of both discs: one set for each pair of
 // rows of `discs.species`, and a common set for all other pairs.
 //
-// Rows come in the order of ids, so a disc's row follows from its id. The table has rows and not
-// Species as its index, because equal discs of two rows form one Species but may be of different
+// Rows come in the order of ids, so a disc's row follows from its id. The table is indexed by
+// rows and not by Species, because equal discs of two rows form one Species but may be of different
 // materials.
 #pragma once
 

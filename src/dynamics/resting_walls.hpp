@@ -18,7 +18,7 @@ template <class Real> class RestingWalls {
 public:
     static constexpr Real never = std::numeric_limits<Real>::infinity();
 
-    /// `radius` is the radius of all discs; `band` is the width within which a slow disc bounces.
+    /// `radius` is the disc's radius; `band` is the width within which a slow disc bounces.
     CARROM_DEVICE RestingWalls(Real length, Real radius, Real band)
         : low_(radius), high_(length - radius), band_(band) {}
 

@@ -9,7 +9,7 @@
 // (q r), where q m r^2 is the moment of inertia. For a disc that does not turn q is infinite. The
 // velocity along t changes by at most `friction` times the change of the normal velocity.
 //
-// Rubbing does not depend on the contact time, because no series of collisions ends by it, and
+// Rubbing does not depend on the contact time, because it ends no series of collisions, and
 // because a disc that rests on a floor should roll there.
 #pragma once
 

@@ -2,7 +2,7 @@
 // Species: the radius and the mass of each disc. Only swap moves change them in a run.
 //
 // Species come in the order of ids, so a disc's species follows from its id and takes no memory in
-// arrays, messages and checkpoints. If there are few species, comparisons find them. Many species
+// arrays, messages and checkpoints. Few species are found by comparing ids. Many species
 // have a table by id on every rank: up to 65,536 species take 2 bytes a disc for the number of the
 // species, and more take 16, because the table then contains radius and mass of each disc.
 #pragma once

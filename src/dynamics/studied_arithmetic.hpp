@@ -9,7 +9,7 @@
 //
 // Such arithmetic finds contacts where discs do not touch, and misses others. The search covers
 // only pairs that can touch, plus a margin that depends on ranks and threads. So a contact counts
-// only within a fixed margin, `slack`, and all numbers of ranks and threads give the same contacts.
+// only within a fixed margin (`farthest_`), so that ranks and threads do not affect contacts.
 #pragma once
 
 #include <algorithm>
@@ -82,8 +82,8 @@ public:
         return naive_contact_delay(met.ex, met.ey, met.wx, met.wy, sigma,
                                    formula_ == ContactFormula::naive_contracted);
     }
-    /// Whether the discs, advanced to that time in double precision, are within `slack` of
-    /// touching.
+    /// Whether the centres of the discs, advanced to that time in double precision, are at most
+    /// `farthest_` apart.
     CARROM_DEVICE bool counts(const DiscState& p, const DiscState& q,
                               const PairContact<Real>& found) const {
         const double time = static_cast<double>(found.base) + static_cast<double>(found.delay);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What discs meet besides each other, and the frame in which they fly straight. These values stand
-// beside space, bodies and law in a dynamics (dynamics.hpp).
+// The walls and fixed bodies that discs meet, and the frame in which discs fly straight.
+// Together with space, bodies and law they form a dynamics (dynamics.hpp).
 //
 //   PlainSurroundings        four elastic walls at rest, in the box's own frame
 //   SurroundingsOfEffects    sides of any kind (boundaries.hpp), fixed bodies (fixed_bodies.hpp), a

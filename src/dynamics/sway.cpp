@@ -81,7 +81,7 @@ private:
     double end_;
 };
 
-/// The pieces in which a function is monotone. Its derivative `slope` is so in each of `pieces`.
+/// The pieces in which a function is monotone; its derivative `slope` is monotone in `pieces`.
 template <class Function>
 Cuts cut_at_roots(const Cuts& pieces, double end, double origin, const Function& slope) {
     Cuts cuts(pieces.begin(0), end);

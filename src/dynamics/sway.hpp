@@ -25,7 +25,7 @@ namespace carrom {
 
 struct Acceleration;
 
-/// The motion along one axis of a frame that was at rest, due to the changing part.
+/// The motion of a frame from rest along one axis, due to the part that changes.
 struct Swayed {
     double way = 0, speed = 0, acceleration = 0;
 };

@@ -2,9 +2,9 @@
 // An effect that acts at syncs. Between syncs discs fly and collide as without it.
 //
 // At a sync all states are at one time and in the box's own coordinates. The effect on a disc may
-// depend on that disc's state, on exact sums over all discs, and on random numbers of `at_sync`,
-// which are functions of the seed, the disc and the count of syncs. So every machine shape gets the
-// same bits, and a restart needs only the count and the values that an effect keeps (`kept`).
+// depend on that disc's state, on exact sums over all discs, and on random numbers, which are
+// functions of the seed, the disc and the count of syncs. So any number of ranks and threads gives
+// the same bits, and a restart needs only the count and the values that an effect keeps (`kept`).
 //
 // The engine calls the list of effects once a sync, never for a pair. The list is empty in scenes
 // without such an effect.
@@ -79,8 +79,8 @@ struct SyncDiscs {
     /// is empty unless stress is measured or pairs are followed.
     std::function<void(const PairImpulse&)> record_pair = {};
 
-    /// Adds up over all discs in the box: `term(i, parts)` adds the terms of disc i to
-    /// a copy of `sums`. **Collective.**
+    /// Adds up over all discs in the box. `sums` are 0 at first; `term(i, parts)` adds the terms of
+    /// disc i to a copy of them. **Collective.**
     template <class Term> void add_up(std::vector<ExactSum>& sums, const Term& term) const;
 };
 
@@ -123,7 +123,7 @@ struct Arrival {
     double inwards = 0, along = 0;                  ///< velocity of arrival, for a mass of 1
 };
 
-/// How many arrivals came in, and how many did not.
+/// The numbers of arrivals that came in, and of those that did not.
 struct ArrivalCounts {
     std::uint64_t in = 0;            ///< discs that came in
     std::uint64_t without_place = 0; ///< not let in, because a disc or a fixed body is there
@@ -149,7 +149,7 @@ public:
     /// Called before all other functions. `species` is the run's table; copies of it share memory.
     virtual void learn(const SpeciesTable& /*species*/) {}
     /// The largest distance between the pairs that the effect needs at this sync; 0 if it needs no
-    /// pairs. The same on all ranks.
+    /// pairs. It is equal on all ranks.
     virtual double reach(std::int64_t /*n_syncs*/) const { return 0; }
     /// Changes velocities, spins, directions and radii of discs, and no other numbers.
     /// **Collective.**
@@ -157,7 +157,7 @@ public:
     /// The change of radii, for an effect that changes them; null for all others. At most one
     /// effect may change radii.
     virtual SizeChange* sizes() { return nullptr; }
-    /// The source of an effect that lets discs in; null for all others. At most one effect has it.
+    /// The source of an effect that lets discs in; null for all others. At most one effect has one.
     virtual DiscSource* source() { return nullptr; }
 
     /// Whether `begin` does anything.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an engine reports of single events: collisions, and crossings of periodic sides.
+// The data of single events that an engine reports: collisions and crossings of periodic sides.
 #pragma once
 
 #include <cstdint>

@@ -48,7 +48,7 @@ public:
 
     /// See DiscSystem::advance_towards. **Collective.**
     virtual void advance_towards(std::int64_t last_step) = 0;
-    /// Fills in the totals that only the engine knows: overlaps, rejected candidates, windows.
+    /// Fills in the totals that only the engine has: overlaps, rejected candidates, windows.
     /// **Collective.**
     virtual void add_to(Totals& totals) = 0;
     /// Redistributes the discs in their present state, so that pairs within a diameter, or within
@@ -84,17 +84,17 @@ public:
     /// The values that effects keep for the next sync; part of StoredState
     virtual std::vector<std::int64_t> kept_by_effects() const { return {}; }
     virtual PhaseSeconds phase_seconds() const = 0;
-    /// Largest number of ranks that share a strip; the same on all ranks
+    /// Largest number of ranks that share a strip; equal on all ranks
     virtual int most_ranks_across() const = 0;
 
     /// See DiscSystem::log_to. Engines append the collisions that they carry out while `log_` is
     /// not null.
     void log_to(std::vector<Collision>* log) { log_ = log; }
-    /// Followers get this rank's collisions of pairs, or with the box's sides, in any order.
+    /// Followers get this rank's collisions of pairs, or with sides and fixed bodies, in any order.
     Followers<PairEvent>& followers_of_pairs() { return pair_followers_; }
     Followers<WallEvent>& followers_of_walls() { return wall_followers_; }
-    /// From now on the energy that moving images give to own discs is added to `work` while
-    /// collisions are logged, in the unit of stored states, per micro-step. Null ends this.
+    /// From now on the energy that moving images give to own discs is added to `work`, in
+    /// the unit of stored states, mass times squared length per squared micro-step. Null ends this.
     void add_work_to(double* work) { work_ = work; }
     /// From now on `act` is called at each sync before the effects act, when all states are at the
     /// time of the sync. It must not change states. An empty function ends this.
@@ -107,7 +107,7 @@ public:
         no_stress_ = *sums;
         no_stress_.clear();
     }
-    /// Sums the energy that collisions take, with `bound` exceeding each sum; before any step.
+    /// Sums the energy that collisions take; `bound` exceeds each sum. Call this before any step.
     void begin_loss_sums(double bound) { losses_ = no_losses_ = LossSums(bound); }
     /// Integrals over flights that the sums do not contain yet.
     virtual FlightIntegral flight_integral() const { return {}; }
@@ -119,7 +119,7 @@ public:
     }
 
 protected:
-    /// Records the flight from (x, y) to the disc's position. Threads may call this in parallel.
+    /// Records that the disc was brought back from (x, y) to its position in the box. Thread-safe.
     void record_crossing(const DiscState& disc, double x, double y, const Periods& periods);
     bool is_followed() const {
         return log_ != nullptr || wall_followers_.are_any() || pair_followers_.are_any();

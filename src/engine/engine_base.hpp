@@ -56,7 +56,7 @@ public:
     int most_ranks_across() const final { return discs_.domains().largest_group(); }
 
 protected:
-    /// Takes over the state. The method calls `distribute` when its own members are ready.
+    /// Takes over the state. A derived class calls `distribute` when its own members are ready.
     EngineBase(const SceneParameters& scene, StoredState state, const Communicator& communicator,
                const Tuning& tuning);
 
@@ -68,12 +68,12 @@ protected:
     /// Called after a sync at `time_`, before times start again from 0. No own disc is faster than
     /// `largest_speed`. **Collective.**
     virtual void finish_sync(double largest_speed) = 0;
-    /// Called when effects have changed velocities after finish_sync and before flights. No own
-    /// disc is faster than `largest_speed`. **Collective.**
+    /// Called if velocities have changed or discs have come in after finish_sync and before
+    /// flights. No own disc is faster than `largest_speed`. **Collective.**
     virtual void take_speed(double largest_speed) = 0;
     /// Ends a window that extends beyond the present stop. **Collective.**
     virtual void leave_window() { is_in_window_ = false; }
-    /// Advances all own discs to `time_`, sets `time_` to 0, and returns the largest speed.
+    /// Advances all own discs to `time_`, sets their times to 0, and returns the largest speed.
     virtual double restart_states();
     /// Brings `discs_` up to date, in engines that keep their states elsewhere.
     virtual void bring_states() const {}
@@ -86,7 +86,7 @@ protected:
     /// Without later times, runs that are inspected at each step would have a window for each step,
     /// which costs as much as a long one.
     std::int64_t horizon_of(std::int64_t target) const;
-    /// The interval, in micro-steps from the present one, at multiples of which stops are probable.
+    /// Stops are probable at multiples of this number of micro-steps from the present one.
     std::int64_t stop_interval() const { return stop_interval_; }
     /// The region that cells cover: the whole region that the rank uses, or only the part of it
     /// that contains its discs. If discs are clustered, cells of the whole region would hold

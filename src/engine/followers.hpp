@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Passes collisions, as they happen, to measurements and other followers. Engines record events
-// only if there is a follower, so that other runs pay nothing.
+// only if there is a follower, so that other runs lose no time.
 #pragma once
 
 #include <cstddef>

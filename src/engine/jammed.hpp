@@ -16,8 +16,8 @@ public:
     Jammed(const std::string& text, std::int64_t safe_micro_step)
         : CollectiveError(text, ExitCode::collective_failure), safe_micro_step_(safe_micro_step) {}
 
-    /// The run can be repeated up to the end of this micro-step without a jam. The same on all
-    /// ranks.
+    /// The run can be repeated up to the end of this micro-step without a jam. It is equal
+    /// on all ranks.
     std::int64_t safe_micro_step() const { return safe_micro_step_; }
 
 private:

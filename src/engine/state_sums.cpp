@@ -127,7 +127,7 @@ void measure_other_energies(std::span<const OtherEnergy> energies, std::span<con
 
 namespace {
 
-/// Access to two discs of a population at a time.
+/// Relations of two discs of a population at the given time.
 class PairsAt {
 public:
     PairsAt(const Population& population, double time, const Touching& touching)

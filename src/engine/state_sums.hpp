@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over all discs with the same bits for every machine shape: integers and 128-bit
-// fixed point.
+// Sums over all discs whose bits do not depend on the numbers of ranks and threads: integers and
+// 128-bit fixed point.
 #pragma once
 
 #include <span>

@@ -15,7 +15,7 @@
 
 namespace carrom {
 
-/// Where the impulses that effects give at a sync are recorded.
+/// The receivers of the impulses that effects give at a sync.
 struct SyncNotes {
     const Followers<WallEvent>* walls = nullptr;
     const Followers<PairEvent>* pairs = nullptr;
@@ -54,7 +54,7 @@ public:
     /// time. Adds to `energy_given()`. **Collective.**
     void begin(StripDiscs& discs, std::int64_t n_syncs);
     /// Kinetic energy that effects have given to discs of this rank since the run began, spins
-    /// included, per micro-step. For checks: its last bits depend on the machine shape.
+    /// included, per micro-step. For checks: its last bits depend on ranks and threads.
     double energy_given() const { return energy_given_; }
 
     /// The values that effects keep: for each effect the number of its values, then the values.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The work that a run has done, for reports. Sums over the state itself are public.
+// The work that a run has done, for reports. Sums over the state itself are in carrom/totals.hpp.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// Counts of windows and blocks of the event-driven method. They depend on the machine
-/// shape, and are zero in the time-stepped method.
+/// Counts of windows and blocks of the event-driven method. They depend on the numbers
+/// of ranks and threads, and are zero in the time-stepped method.
 struct RollbackCounts {
     /// windows_redone: windows in which some block on some rank was repeated
     std::uint64_t windows = 0, windows_redone = 0;
@@ -20,7 +20,7 @@ struct RollbackCounts {
                   blocks_redone = 0; ///< first runs and repetitions of blocks, on all ranks
     /// Collisions of pairs at the same time, within rounding, as an earlier collision of one of the
     /// two discs. In these cases the order of ids or a rounding decides the result. Counted on all
-    /// ranks since the engine began; equal for any machine shape.
+    /// ranks since the engine began; equal for any numbers of ranks and threads.
     std::uint64_t simultaneous = 0;
 };
 

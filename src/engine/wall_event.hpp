@@ -15,7 +15,7 @@
 namespace carrom {
 
 /// Impulses and energies are per step and in the box's own frame; sides are in the order of
-/// `side_names`.
+/// `boundary_names`.
 struct WallEvent {
     std::uint8_t side = 0;
     double normal = 0; ///< impulse on the disc normal to the side, positive away from it

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chooses the length of a window. Long windows share the cost of sorting discs into
-// cells, but need longer searches. All ranks know the numbers that the choice uses, so
-// all ranks choose the same. The choice affects the run's time, not its bits.
+// cells, but need longer searches. The numbers that the choice uses are equal on all
+// ranks, so all ranks choose the same window. The choice affects the run's time, not its bits.
 #pragma once
 
 #include <algorithm>

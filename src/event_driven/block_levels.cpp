@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Block runs of discs of several sizes, whose discs lie in levels of cells (size_levels.hpp).
 //
-// A disc searches partners of its own level and of levels of larger discs among discs and ghosts.
-// In levels of smaller discs each of its images near the box searches among discs alone, so that
+// A disc searches partners of its own level and of levels of larger discs among discs and ghosts
+// (box_layout.hpp). In levels of smaller discs its images near the box search discs alone, so that
 // the depth of a level's ghosts depends only on the reach of its own discs, however large other
 // discs are.
 #include <algorithm>
@@ -92,7 +92,7 @@ void BlockRun<Dynamics>::Scratch::lay_levels(const Extent& extent, const Periods
     cell_starts = layout.cell_starts();
 }
 
-/// Does the work of set_scales for levels. The unit of lanes is a cell of the smallest discs.
+/// Does the work of set_scales for levels. Lanes are in units of the smallest discs' cells.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales_of_levels() {
     const BlockWindow& window = ground.window;
     cell_width = levels.front().cells.width;
@@ -278,7 +278,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_sized(std::u
 }
 
 /// Predicts contacts of two discs that have just collided. Discs of the same level search nearly
-/// the same cells, so one search serves both.
+/// the same cells, so one search finds the partners of both.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_two_sized(std::uint32_t p, std::uint32_t q) {
     const std::size_t own = level_of_slot(p);

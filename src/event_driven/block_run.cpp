@@ -144,7 +144,7 @@ void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_
     for (std::size_t k = 0; k < n.q; ++k) predict_pair(q, others_partners[k]);
 }
 
-/// The state of `b`, displaced by `image` if there is one.
+/// Predicts the contact of disc `a` with disc `b`, displaced by `image` if there is one.
 template <class Dynamics>
 [[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::predict_shifted(
     std::uint32_t a, std::uint32_t b, const Image* image) {
@@ -256,7 +256,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     if (is_corner && !has_left &&
         (Dynamics::has_mirror_walls ||
          discs[event.p].vy ==
-             vy_before)) { // no event comes between, because the order of x and y has no meaning
+             vy_before)) { // y follows x at once, because their order has no meaning
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;
@@ -330,8 +330,8 @@ template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event&
     return loss;
 }
 
-/// Records that an own disc has met a disc from beyond the ring, whose history is not compared.
-/// Either the other disc was faster than the speed bound, or this run is wrong.
+/// Records that an own disc has met the disc in `slot`, if that one is from beyond the ring, where
+/// histories are not compared. Either that disc was faster than the bound, or this run is wrong.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::uint32_t slot) {
     if (is_compared(slot)) return;
     outcome->far_partner = std::max({outcome->far_partner,

@@ -5,7 +5,7 @@
 //
 //   cells of a rank          the run of block B, whose halo is two reaches deep
 //   +-----+-----+-----+      +-----------------------------+
-//   |     |     |     |      |   .      halo        .      |   . is run, and then forgotten
+//   |     |     |     |      |   .      halo        .      |   . is run, and then discarded
 //   |  A  |  B  |  C  |      |      +---------------+  .   |
 //   |     |     |     |      | .    | r   ring    r |      |   r is run; its history goes to
 //   +-----+-----+-----+      |      |   +-------+   |      |     BlockOutcome::ring
@@ -17,7 +17,7 @@
 //                            |       .        .       .    |
 //                            +-----------------------------+
 //
-// A run does not know what happens beyond its halo, so its result may be wrong. Therefore histories
+// A run ignores everything beyond its halo, so its result may be wrong. Therefore histories
 // are compared. Disc 7 is an own disc of A and lies in the ring of B:
 //
 //   run of A: history h of disc 7 ---+
@@ -115,8 +115,8 @@ struct HaloRecord {
     std::uint64_t history = 0;
 };
 
-/// The last byte of a history: after no event was the disc faster than the square root of
-/// `history & 255` / 200 of the window's speed bound. If it is 255, the disc may have any speed.
+/// The last byte c of a history: after each event the disc's speed was at most sqrt(c / 200) times
+/// the window's speed bound. If c is 255, the disc may have any speed.
 using SpeedClass = std::uint8_t;
 inline constexpr std::uint64_t largest_speed_class = 255;
 inline constexpr double speed_classes_to_bound = 200;
@@ -196,12 +196,12 @@ struct BlockOutcome {
     std::uint64_t n_events = 0;  ///< number of events whose first disc is an own disc
     std::uint64_t n_carried = 0; ///< number of all events of the run, those of the halo included
     std::uint64_t n_seen = 0;    ///< number of discs of the run, with its halo
-    double too_fast = 0;         ///< the largest speed of an own disc that moved too far, or 0
-    /// The largest speed of a disc from beyond the ring that collided with an own disc, or 0
+    double too_fast = 0;         ///< largest speed of discs that were too fast for the window, or 0
+    /// 0, or at least the speed of any disc from beyond the ring that collided with an own disc
     double far_partner = 0;
     double largest_speed_at_end = 0;
     double largest_speed = 0; ///< a bound of the speed of own discs at any time of the run
-    bool is_cascade = false;  ///< the run was given up in a collision cascade
+    bool is_cascade = false;  ///< whether the run ended in a collision cascade
     DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if the disc meets a wall
     double cascade_time = 0;
 

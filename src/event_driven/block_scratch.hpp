@@ -83,7 +83,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void set_scales();
     void mark_own(const CellBlock& own);
     void mark_own_of_all(const CellBlock& own);
-    /// Stores a disc's flight by its position, in cells, extrapolated to the window's start.
+    /// Stores a disc's velocity, and its position extrapolated to the window's start, in cells.
     [[gnu::always_inline]] void place(std::uint32_t slot, double start) {
         const DiscState& disc = discs[slot];
         const auto [along, across] = turned(axis, x_of(disc, start), y_of(disc, start));
@@ -93,7 +93,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         vx[slot] = static_cast<float>(v_along * cells_per_speed);
         vy[slot] = static_cast<float>(v_across * cells_per_speed);
     }
-    /// Stores the flight of a ghost's disc.
+    /// Stores the flight of a ghost, which is a displaced image of a disc.
     void place_ghost(const Ghost& ghost) {
         x[ghost.slot] = x[ghost.disc] + ghost.x_shift;
         y[ghost.slot] = y[ghost.disc] + ghost.y_shift;
@@ -163,7 +163,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
             predict_pairs(flight_of(slot));
     }
     void predict_pairs(const Flight& flight);
-    /// Searches the partners of every disc, so a pair may be found twice. This is needed if rows of
+    /// Finds the partners of every disc, so a pair may be found twice. This is needed if rows of
     /// images slide: the two ghosts of a pair across the seam need not lie in opposite cells, so
     /// the order of cells may make neither disc the first of the pair.
     void predict_pairs_of_all() {
@@ -304,7 +304,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         is_void = true;
     }
 
-    /// Records a collision. Call this after it, while the second disc is at the image's position.
+    /// Records a collision after it was carried out, while the second disc is at its image's place.
     [[gnu::noinline]] void record_pair(const Event& event, const PairStress<Dynamics>& before,
                                        const Separation& to) {
         if (!outcome->pairs.has_room()) [[unlikely]] // a function of its own, so that the loop

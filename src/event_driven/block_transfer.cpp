@@ -184,7 +184,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own(const CellB
     }
 }
 
-/// Finds the block's discs in a run of the whole box, by the cells of the rank.
+/// Marks the block's own discs in a run of the whole box, by the cells of the rank.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own_of_all(const CellBlock& own) {
     if (ground.is_alone) {
         is_own.assign(indices.size(), 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chooses the length of a window of the event-driven method and the size of its blocks. It uses
-// only numbers that all ranks know. The choice affects the run's time, not its bits.
+// only numbers that are equal on all ranks. The choice affects the run's time, not its bits.
 //
 // In a long window more collisions share the cost of sorting and copying discs, but each disc has
 // more possible partners. Large blocks have less halo for each disc; small blocks stay in the
@@ -46,8 +46,8 @@ struct BlockChoice {
 BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
                                 std::optional<double> wanted);
 
-/// Learns from windows whose block runs had to be repeated. Each collision changes later ones, and
-/// in a dense gas or a heap such a chain leads further in a window than the reach suggests. Then
+/// Adapts to windows whose block runs had to be repeated. Each collision changes later ones, and in
+/// a dense gas or a heap such a chain spreads further in a window than the reach suggests. Then
 /// blocks get a larger halo. If that is not enough, windows become shorter.
 class Caution {
 public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole box cut into cells, for a run that has all discs of the box. Each disc has one slot.
 // Cells beyond periodic sides hold ghosts. A ghost is a slot for an image of a disc. The filter
-// tests it by its own flight, but its state is the disc's state.
+// (flight_filter.hpp) tests the ghost's own flight, but its state is the disc's state.
 #pragma once
 
 #include <cstdint>

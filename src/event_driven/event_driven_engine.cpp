@@ -259,7 +259,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::add_to(Totals& total
     add_losses(this->losses_, this->micro_steps_, communicator_, totals);
 }
 
-/// Carries out the window's parts from `first` to before `n_parts_done_`.
+/// Commits the window's parts from `first` to `n_parts_done_` - 1.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::commit(std::size_t first) {
     const PhaseClock::Scope scope(phases_, Phase::move);
     DiscState* const discs = discs_.all().data();
@@ -295,7 +295,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::add(const BlockPart&
 
 template <class Dynamics> void EventDrivenEngine<Dynamics>::finish_sync(double largest_speed) {
     largest_speed_ = largest_speed;
-    is_largest_known_ = false; // noise and thermostats have changed speeds
+    is_largest_known_ = false; // effects at the sync may have changed speeds
     const Axis axis = discs_.domains().axis();
     const double across = discs_.domains().are_cut_across()
                               ? dynamics_.jump_at(other_axis(axis), time_)

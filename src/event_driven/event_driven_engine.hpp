@@ -13,7 +13,7 @@
 //                 the discs that have collided before it
 //
 // A rollback costs only the repeated run, because no state changes before the commit. A single run
-// of the whole box, without halo and histories, serves few discs on one rank and thread.
+// of the whole box, without halo and histories, is used for few discs on one rank.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,7 @@ struct BlockTuning {
     bool notes_work = false; ///< whether work is recorded for `take_work()`
 };
 
-/// Units of work for a disc of a run, beside its collisions; a collision counts as this many units.
+/// The work for a disc of a run besides its collisions, in collisions; and units per collision.
 inline constexpr double work_of_disc = 0.14;
 inline constexpr std::uint64_t work_unit = 100;
 
@@ -166,7 +166,7 @@ private:
 
     /// Depth in reaches; at least two, because the last own row of cells may end beyond the domain.
     int first_halo_depth() const { return std::max(2, choice_.halo); }
-    /// The depth up to which cells exist. Halos can become as deep without new cells.
+    /// The depth in reaches up to which cells exist. Halos can become this deep without new cells.
     int laid_depth() const { return std::max(common_depth_, 2 * choice_.halo); }
     double reach() const { return block_reach(window_, contact_distance(), dynamics_.box()); }
     /// The largest distance between centres in a contact in this window.
@@ -198,7 +198,7 @@ private:
     BlockWindow window_;
     std::vector<double> stops_;    ///< times inside the window at which its parts end
     std::size_t n_parts_done_ = 0; ///< number of parts that have been committed
-    BlockNotes notes_;             ///< records of the blocks in this window
+    BlockNotes notes_;             ///< what blocks record in this window
     bool is_alone_ = false; ///< whether a single run covers the whole box: one rank, few discs
     BoxCells box_cells_;    ///< cells for runs of the whole box
     int common_depth_ = 0;  ///< depth in reaches that the halos of all ranks have

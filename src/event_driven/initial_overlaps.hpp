@@ -13,8 +13,8 @@
 namespace carrom {
 
 /// Throws InputError on every rank, naming the first few pairs and their number, if discs overlap
-/// at `time` by more than twice the tolerance. The grid holds the population at that time and
-/// partners within a diameter. **Collective.**
+/// at `time` by more than twice the tolerance. The grid contains the population at that
+/// time and has a reach of at least a diameter. **Collective.**
 void refuse_overlaps(const Population& population, const CellGrid& grid, double time,
                      const Touching& touching, const Communicator& communicator, int n_threads,
                      const std::string& scene_name);

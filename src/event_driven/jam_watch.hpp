@@ -24,7 +24,7 @@ class JamWatch {
 public:
     /// The facts about the run that the watch needs.
     struct Setting {
-        double rate = 0;     ///< rate of radii, as a share of the initial ones per micro-step
+        double rate = 0;     ///< growth of radii, as a share of the initial ones per micro-step
         double interval = 1; ///< time between syncs
         double end = 0;      ///< end of the run, from its start
         double n_discs = 0;

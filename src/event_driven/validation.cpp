@@ -55,8 +55,8 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
     return Verdict::repeat;
 }
 
-/// Marks the blocks whose own discs have met a disc from beyond the ring. If such a run had the
-/// whole box, its result is right, but the other disc was faster than the bound.
+/// Marks the blocks whose own discs have met a disc from beyond the ring. If such a run covered
+/// the whole box, its result is right, but the other disc was faster than the bound.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::check_partners() {
     for (Block& block : blocks_) {
         BlockOutcome& outcome = block.outcome;
@@ -311,7 +311,7 @@ bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
                    own_cells_.end_row, geometry.n_rows, other_axis(axis), has_all_across);
 }
 
-/// Ends the run on all ranks if a block that had the whole box was given up in a collision cascade.
+/// Ends the run on all ranks if a block run of the whole box was stopped in a collision cascade.
 /// **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() const {
     std::string text;

@@ -61,8 +61,8 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::largest_of_all() c
     return is_largest_known_ ? reduced_.largest : communicator_.max(largest_speed_);
 }
 
-/// In a frame that falls, speeds grow until the window ends, also those of discs at rest on a
-/// floor. **Collective.**
+/// The speed bound of the next window. In a frame that falls, speeds grow until the window ends,
+/// also those of discs at rest on a floor. **Collective.**
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
     const double gained = dynamics_.speed_gained_at(policy_.soon(time_, target)) -

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chooses each window of a run from the windows before it: how often discs collided, how many block
-// runs had to be repeated, and how fast discs have become. It uses only numbers that all ranks
-// know. It affects the run's time, not its bits.
+// runs had to be repeated, and how fast discs have become. It uses only numbers that are equal
+// on all ranks. It affects the run's time, not its bits.
 #pragma once
 
 #include <optional>

@@ -64,8 +64,8 @@ void BoundaryResolution::resolve_boundary(const Population& population,
         mine.push_back({c.time, population.discs[c.p].id, population.discs[c.q].id,
                         static_cast<std::uint32_t>(k), is_first_[k]});
     }
-    // This rank does not know which neighbour owns the other disc, so it sends its few statements
-    // to all neighbours.
+    // This rank has no table of which neighbour owns the other disc, so it sends its few
+    // statements to all neighbours.
     Received<Statement> received;
     with_neighbours_.exchange(neighbours, std::vector(neighbours.size(), mine), received);
     for (Statement& statement : mine) statement.is_mine = 1;
@@ -95,8 +95,8 @@ void BoundaryResolution::keep(const Candidate& candidate, Candidates& kept) {
     insert(candidate, taken_);
 }
 
-/// Reports which of the undecided candidates, in total order, come first for all of
-/// their discs that this rank owns.
+/// Fills `is_first_`: whether each undecided candidate, in total order, is the first one of all its
+/// discs that this rank owns.
 void BoundaryResolution::find_first(const Population& population, const Candidates& undecided) {
     is_first_.clear();
     seen_.clear();

@@ -4,12 +4,12 @@
 //
 // Neighbours exchange messages first. For every candidate with discs of two ranks, each rank
 // reports whether it is the first remaining candidate of its own disc. A candidate that is first
-// for both is final. If a rank does not report a candidate, it has been rejected there. One message
+// for both is final. A candidate that one rank does not report is rejected there. One message
 // to each neighbour decides nearly everything in a gas, whatever the number of ranks.
 //
 // A chain that zigzags between strips takes a round for each crossing. So after a few rounds the
-// remaining candidates are sorted across the ranks into the total order. Slice after slice is then
-// walked, and passes on which discs are taken. So a chain may span any number of strips.
+// remaining candidates are sorted across the ranks into the total order. Ranks then walk their
+// slices in turn, and pass on the ids of taken discs. So a chain may span any number of strips.
 // Cost of the sort: two any-to-any exchanges, and memory for these candidates only.
 #pragma once
 

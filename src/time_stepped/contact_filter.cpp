@@ -104,7 +104,7 @@ struct NearPass {
 };
 
 /// Finds the vectors of `run` in which a flight passes one of the flights of `cell` so closely that
-/// the discs may touch: (d x w)^2 <= touching^2 w.w, with d and w as above. This test costs half as
+/// the discs may touch: (d x w)^2 <= touching^2 w.w (see lanes_that_touch). This test costs half as
 /// much as the test of times, and rejects most vectors if discs fly much further than their
 /// diameter. It has no branch that depends on the data. Writes to `out` after the first n entries,
 /// where `out` has room for all, and returns the new number.

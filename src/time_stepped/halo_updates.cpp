@@ -21,7 +21,7 @@ std::uint64_t TimeSteppedEngine<Dynamics>::count_ours(std::span<const Candidate>
 }
 
 /// Exchanges new states with the neighbours. Appends to `hits_` the halo's discs that
-/// this rank has not hit itself. Places of other updates hold `wall_index`, which is skipped.
+/// this rank has not hit itself, and `wall_index` for all others, which later code skips.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
     if (discs_.has_no_halo()) return;

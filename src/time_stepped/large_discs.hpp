@@ -29,7 +29,7 @@ public:
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(indices_.size()); }
     LocalIndex index(std::uint32_t place) const { return indices_[place]; }
-    /// The index of one of these discs.
+    /// The position in this list of the disc with that index.
     std::uint32_t place(LocalIndex index) const;
     FlightLanes lanes() const {
         const float* const x = lanes_.data();

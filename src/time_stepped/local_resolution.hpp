@@ -2,12 +2,12 @@
 // Decides which candidates of a micro-step (or of a part of it) happen, as far as this rank can
 // decide alone.
 //
-// The rule is the sorted walk: keep a candidate if neither of its discs is taken yet. A candidate
-// that is first for both of its discs is final. Keeping all of these, rejecting their rivals and
-// repeating this gives the same result (Blelloch, Fineman, Shun 2012). Gases need one to three
-// rounds. A long chain would need as many rounds as half its length, so after a few the rest is
-// sorted and walked. A rank knows all candidates of its own discs, not those of halo discs. So a
-// candidate with a halo disc stays undecided, and so do all candidates that depend on it.
+// The rule is a walk in total order: keep a candidate if neither of its discs is taken yet. A
+// candidate that is first for both of its discs is final. Keeping all of these, rejecting their
+// rivals and repeating this gives the same result (Blelloch, Fineman, Shun 2012). Gases need one to
+// three rounds. A long chain would need half as many rounds as its length, so after a few the rest
+// is sorted and walked. A rank has all candidates of its own discs, not those of halo discs. So a
+// candidate with a halo disc stays undecided, as do all candidates that depend on it.
 #pragma once
 
 #include <cstdint>
@@ -26,12 +26,12 @@ struct Verdicts {
     int n_rounds = 0;
 };
 
-/// A mark for each disc of a rank, 4 bytes a disc. All marks are reset after each call.
+/// Keeps a mark of 4 bytes for each disc of a rank. All marks are reset after each call.
 class LocalResolution {
 public:
     explicit LocalResolution(int n_threads) : n_threads_(n_threads) {}
 
-    /// Decides the candidates `live`, and empties this list. No disc may be taken before.
+    /// Decides the candidates `live`, and empties this list. No disc is taken at first.
     void resolve(const Population& population, Candidates& live, Verdicts& verdicts);
 
     int rounds_before_walk = 12; ///< affects only the cost; with 0 the walk starts immediately

@@ -35,7 +35,7 @@ void prefetch(std::span<const DiscState> discs, LocalIndex index) {
     __builtin_prefetch(&discs[index]);
 }
 
-/// Calls `ask` for a pair some pairs before `judge`, for the first n pairs. Omits the rest if a
+/// Calls `ask`, a prefetch, some pairs ahead of `judge`, for the first n pairs. Omits the rest if a
 /// request to stop is overdue.
 template <class Ask, class Judge>
 void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask& ask,
@@ -203,7 +203,7 @@ void Search<Dynamics>::predict_column(const Population& population, const CellGr
 
 /// Half the width of the stretch along a disc's path, in cells, that contains the cells of all
 /// discs of the usual radius that it touches. When they touch, the centres are the sum of both
-/// radii apart, and the other disc is at most half a reach less its radius from its cell.
+/// radii apart, and the other disc flies at most half a reach minus its radius in a window.
 template <class Dynamics>
 float Search<Dynamics>::half_reach(const CellGrid& grid, double reach, double radius) const {
     return grid.cells_of(reach / 2 + radius + dynamics_.slack());

@@ -22,7 +22,7 @@
 namespace carrom {
 
 /// The candidates of one micro-step, in sections by the time of prediction. The `seen` of a section
-/// is the number of the last state at that time.
+/// is the number (window.hpp) of the last state at that time.
 struct MicroStepList {
     struct Section {
         WindowState seen = 0; ///< the last state of any disc at that time
@@ -56,7 +56,7 @@ struct SearchLists {
 
 template <class Dynamics> class Search {
 public:
-    /// Cells are made for discs up to `usual_radius`; larger ones search on their own.
+    /// Cells are made for discs up to `usual_radius`; larger discs are listed and searched apart.
     Search(const Dynamics& dynamics, int n_threads, double usual_radius);
     double usual_radius() const { return usual_radius_; }
     /// Lists the large discs. Call it after the grid was built for the next window, and before

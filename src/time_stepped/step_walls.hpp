@@ -165,7 +165,7 @@ private:
             stop(disc, m, t, contact.body);
         }
     }
-    /// Returns false if a side stops the disc before.
+    /// Returns false if no fixed body stops the disc, or if a side stops it earlier.
     CARROM_DEVICE bool stops_at_fixed_body(DiscState& disc, double m, double at_side,
                                            std::uint32_t left) const {
         if constexpr (Dynamics::may_have_fixed_bodies) {

@@ -101,7 +101,7 @@ private:
     double hits_per_micro_step_ = 0;
     double window_speed_ = 0; ///< the speed that the window's reach allows for
     double usual_speed_ = 0;  ///< the speed that the window's cells allow for
-    SpeedSpread spread_;      ///< speeds at the start of the last micro-step that was divided
+    SpeedSpread spread_;      ///< speeds at the start, or after the last divided micro-step
     bool speed_exceeded_ = false;
 
     Search<Dynamics> search_;
@@ -112,9 +112,9 @@ private:
     std::vector<LocalIndex> updates_;
     DiscStates unhit_; ///< for the log: first discs of the kept candidates, before the collision
     DiscStates unhit_partners_;     ///< second discs before the collision, if pairs are recorded
-    RawVector<WindowState> states_; ///< the window's state of each disc
+    RawVector<WindowState> states_; ///< number of each disc's state (window.hpp)
 
-    // Candidates whose first disc is an own disc.
+    // Numbers of candidates whose first disc is an own disc.
     std::uint64_t n_candidates_ = 0, n_kept_ = 0, n_kept_at_sync_ = 0;
 };
 
