@@ -13,8 +13,8 @@ namespace carrom {
 
 namespace {
 
-/// Distance between points, relative to the smallest radius. Up to 2/3, no step between two free
-/// points can cross a segment, because one of these points would be blocked.
+/// Distance between points, relative to the smallest radius. It is below 2/3, so that no step
+/// between two free points crosses a segment, because one of these points would be blocked.
 constexpr double spacing = 0.66;
 constexpr double most_points = 0x1p22;
 
@@ -117,8 +117,8 @@ private:
             }
     }
 
-    /// Assigns the next number to all points that are connected with point `first`. Returns how
-    /// many points there are.
+    /// Assigns the next number to all points that are connected with point `first`. Returns the
+    /// number of these points.
     std::uint64_t fill(std::size_t first) {
         const auto number = static_cast<std::int32_t>(sizes_.size());
         std::uint64_t n_points = 0;

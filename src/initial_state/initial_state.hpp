@@ -16,11 +16,11 @@ namespace carrom {
 std::vector<InputDisc> generated_places(const SceneParameters& scene,
                                         const Communicator& communicator, int n_threads);
 
-/// Like initial_state, without the velocities that are drawn or rotated. **Collective.**
+/// Like initial_state, but without give_first_velocities. **Collective.**
 std::vector<InputDisc> initial_places(const SceneParameters& scene, std::istream* lines,
                                       const Communicator& communicator, int n_threads);
 
-/// Gives the discs the velocities that initial_places leaves out. **Collective.**
+/// Draws velocities, adds streams, or reverses listed velocities, by the scene. **Collective.**
 void give_first_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
                            const Communicator& communicator, int n_threads);
 
@@ -29,10 +29,10 @@ void give_first_velocities(const SceneParameters& scene, std::vector<InputDisc>&
 void refuse_in_fixed_bodies(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                             const Communicator& communicator);
 
-/// Returns every disc of the scene exactly once, on any rank. No rank holds more than its share and
-/// a bounded chunk. Compressed starts and groups come from simulation/first_discs.hpp, because they
+/// Returns every disc of the scene exactly once, on any rank. No rank has more than its share and a
+/// bounded chunk. Compressed starts and groups come from simulation/first_discs.hpp, because they
 /// need engines. `lines` is the stream of listed discs on rank 0, or null if the scene has a
-/// generator. Problems with it become an InputError on every rank. A generator gives the same discs
+/// generator. Problems in it become an InputError on every rank. A generator gives the same discs
 /// for any number of ranks. **Collective.**
 std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream* lines,
                                      const Communicator& communicator, int n_threads = 1);

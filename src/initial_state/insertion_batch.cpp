@@ -13,8 +13,8 @@ namespace carrom {
 
 namespace {
 
-// The number of proposals of a rank in a batch. With fewer proposals the exchange takes most of the
-// time; more proposals need much memory.
+// The limits of the number of proposals of a rank in a batch. With fewer proposals the exchange
+// takes most of the time; more proposals need much memory.
 constexpr double least_proposals = 1 << 14, most_proposals = 1 << 20;
 constexpr std::uint64_t most_rounds = 4096; ///< largest number of rounds of a batch
 /// A batch should place at most this share of the discs, because later proposals of a placed disc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Judges many rounds of random insertion together; the result is the same as round by round.
+// Judges many rounds of random_insertion.hpp together, with the same result as one by one.
 //
 // When little free space is left, nearly all proposals overlap a disc that has been placed. The few
 // free proposals, and the proposals of the same round that overlap them, are sent to all ranks. All

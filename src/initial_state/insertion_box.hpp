@@ -139,7 +139,7 @@ public:
     void propose(const Proposers& proposers, std::span<const Notice> updates, int n_threads,
                  RawVector<Notice>& concerning) const;
 
-    /// Calls `visit(place)` for the position of a notice and for each of its images near the seam,
+    /// Calls `visit(place)` for the position of a notice and for each of its images near the box,
     /// and stops when it returns true. A grid puts positions beyond its ends into its last cells.
     template <class Visit> bool for_images(const Notice& notice, const Visit& visit) const {
         if (visit(Point{notice.x, notice.y})) return true;
@@ -164,7 +164,7 @@ public:
 
 private:
     /// The position of a disc in a region, from two random numbers between 0 and 1. If a region
-    /// covers a whole period, discs may lie across the seam.
+    /// covers a whole period, discs may lie across its ends.
     Point place_in(const StartRegion& region, double radius, Point numbers) const {
         const auto [x_low, y_low] = turned(axis_, region.x_low, region.y_low);
         const auto [x_high, y_high] = turned(axis_, region.x_high, region.y_high);

@@ -17,8 +17,8 @@
 
 namespace carrom {
 
-/// The scene's discs, shaken, in any distribution over the ranks. Throws InputError on every rank
-/// if there are not enough sites. **Collective.**
+/// The scene's discs, shifted from the sites at random, in any distribution over the ranks. Throws
+/// InputError on every rank if there are not enough sites. **Collective.**
 std::vector<InputDisc> lattice_around_fixed_bodies(const SceneParameters& scene,
                                                    const Communicator& communicator);
 

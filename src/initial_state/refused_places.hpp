@@ -66,11 +66,11 @@ public:
     }
 
 private:
-    /// In widths of squares. It is larger than the rounding of a position, because a box has fewer
-    /// than 10^7 squares along an axis.
+    /// A length in units of a square's width. It is larger than the rounding of a position, because
+    /// a box has fewer than 10^7 squares along an axis.
     static constexpr double margin = 1e-7;
 
-    // Without std::floor, which is a function call on baseline processors.
+    // Avoids std::floor, which is a function call on baseline processors.
     std::int64_t row_of(Point place) const {
         return static_cast<std::int64_t>(place.y * per_length_);
     }
@@ -106,7 +106,7 @@ private:
 };
 
 /// The surroundings of a few points, in a hash table. Positions near one of the points are always
-/// found; of other positions only a few are.
+/// found; other positions are found only rarely.
 class NearFew {
 public:
     NearFew(std::size_t n_points, double reach) : per_length_(1 / (reach * (1 + 1e-9))) {

@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// Replaces the columns of the file of discs by rank 0's columns. **Collective.**
+/// Replaces `columns` on every rank by rank 0's columns. **Collective.**
 void broadcast(DiscColumns& columns, const Communicator& ranks) {
     ranks.broadcast(columns.species);
     for (std::vector<NumberRun>& runs : columns.numbers.values) ranks.broadcast(runs);

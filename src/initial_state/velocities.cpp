@@ -18,7 +18,7 @@ Velocity drawn_velocity(const SceneParameters& scene, DiscId id) {
     const double speed = scene.velocities == VelocityKind::maxwell
                              ? std::sqrt(random_exponential(random))
                              : std::numbers::sqrt3 * random.uniform();
-    // Turns the velocity in a box that is taller than wide, so that it gets the same gas, turned.
+    // Turns the velocity in a box that is taller than wide: its gas is that of the turned box.
     const auto [vx, vy] = turned(longer_axis(scene.box), speed * direction.x, speed * direction.y);
     return {vx, vy};
 }
@@ -145,7 +145,7 @@ double scale_of(const SceneParameters& scene, const std::vector<InputDisc>& disc
 
 namespace {
 
-/// Gives drawn velocities to all discs together.
+/// Draws velocities, and corrects drift and energy of all discs together. **Collective.**
 void give_motion(const SceneParameters& scene, std::vector<InputDisc>& discs,
                  const Communicator& communicator, int n_threads) {
     const Motion motion(scene, discs, communicator, n_threads);
@@ -165,7 +165,7 @@ void give_motion(const SceneParameters& scene, std::vector<InputDisc>& discs,
     }
 }
 
-/// Gives the discs of each group its own temperature or speed.
+/// Gives the discs of each group their group's temperature or speed. **Collective.**
 void give_motion_by_group(const SceneParameters& scene, std::vector<InputDisc>& discs,
                           const Communicator& communicator, int n_threads) {
     std::ranges::sort(discs, {}, &InputDisc::id);

@@ -29,8 +29,8 @@ bool is_known_type(hid_t type) {
            (kind == H5T_STRING && H5Tis_variable_str(type) == 0);
 }
 
-/// Checks the segments of a recording, the files that hold its numbers: each must be as large as
-/// its rows need.
+/// Checks the segments of a recording, the files that contain its numbers: each must be as large
+/// as its rows need.
 void check_segments_of(const Dataset& dataset, hid_t creation, const std::string& name,
                        std::size_t bytes_per_number) {
     std::size_t n_parts = 0;

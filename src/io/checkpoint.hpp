@@ -11,7 +11,7 @@
 // Rank 0 makes the file and reserves its space on disk. Then each rank writes its share of the ids
 // through HDF5 and MPI-IO; reading works in the same way. Cost: 80 bytes a disc on disk; each disc
 // of another rank's share is sent once; 8 bytes a disc of memory, and 80 more for collective
-// transfers. A column beside the states takes 8 bytes a disc on disk and 24 of memory.
+// transfers. A side column takes 8 bytes a disc on disk and 24 of memory.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The checkpoints of a run in their folder: names, the newest one, and those to remove.
+// The checkpoints of a run in their folder: their names, and a list of them, newest first.
 //
 // One rank calls these functions, on a folder that all ranks can access.
 #pragma once

@@ -78,7 +78,7 @@ public:
                bool is_writer, const Communicator& communicator)
         : path_(path), targets_(targets), communicator_(communicator),
           places_(is_collective ? std::vector<std::uint64_t>() : find_places()) {
-        on_all_ranks([&] { // after this call all ranks know of a failure
+        on_all_ranks([&] { // if one rank fails, all ranks throw
             if (is_writer || is_collective) bytes_.emplace(path_, O_WRONLY);
         });
         if (!is_collective) return;

@@ -2,8 +2,8 @@
 // Every collision of a run in one HDF5 file, in the total order over all ranks.
 //
 // Columns of /carrom/collisions: step (in which the collision happens, from 1), time (in steps,
-// from the start), p, q (-1: a wall), impulse. Box, radii and masses are in /particles/discs. All
-// ranks send their rows in order to rank 0, which writes them; Trajectory gives the reason for
+// since step 0), p, q (-1: a wall), impulse. Box, radii and masses are in /particles/discs. All
+// ranks send their rows in order to rank 0, which writes them; trajectory.hpp gives the reason for
 // this, and describes errors.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calls of the file system except writing: free space, durability, names. Each function throws
+// Calls of the file system: descriptors, free space, durability, names. Each function throws
 // FileError if its call fails.
 //
 // Each rank calls these functions on its own. `on_all` and `on_root` turn exceptions of one rank
@@ -75,7 +75,7 @@ void reserve(const std::string& path);
 /// device, a pipe or a folder, or if the path contains a NUL, at which the system would cut it.
 void refuse_special(const std::string& path);
 /// The folder to which a path leads now. While this object exists, `rename_durably` renames files
-/// below `path` only in this folder, even if something else takes its name. For the writing thread.
+/// below `path` only in this folder, even if something else takes its name. Not thread-safe.
 class HeldFolder {
 public:
     explicit HeldFolder(const std::string& path);

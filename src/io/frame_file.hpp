@@ -20,8 +20,8 @@ struct FileSummary : RecordedSystem {
     FileKind kind = FileKind::checkpoint;
     /// Whether the file has checksums of all its bytes, as all files of this version do.
     bool has_checksums = false;
-    /// The columns that the file has, in the scene's units. For discs: x, y, vx, vy,
-    /// pair_collisions, wall_collisions, then the side columns (side_columns.hpp).
+    /// The columns that the file has, in the scene's units. For discs: x, y, vx, vy, collisions
+    /// with discs and walls, computed fields, images, then the side columns (side_columns.hpp).
     std::vector<std::string> columns;
     std::uint64_t n_rows = 0;         ///< number of rows: discs, or collisions
     std::size_t bytes_per_number = 8; ///< size of a trajectory's positions and velocities
@@ -41,7 +41,7 @@ using Rows = std::vector<std::vector<double>>;
 class FrameFile {
 public:
     /// Call `check_damage` first for checkpoints, because HDF5 ignores some damage. A child process
-    /// must already have opened the file and read from all its parts (child_process.hpp).
+    /// opens the file first, and reads from all its parts (child_process.hpp).
     explicit FrameFile(const std::string& path);
     ~FrameFile();
     FrameFile(FrameFile&&) noexcept;

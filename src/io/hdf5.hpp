@@ -2,8 +2,8 @@
 // HDF5's C interface with errors that throw and handles that close themselves. Only this module
 // uses it.
 //
-// A throw on one rank alone would leave the others waiting, so a collective call stands alone in
-// the body of an `on_all` (files.hpp), which brings the ranks together again.
+// A throw on one rank alone would leave the others waiting. So the body of an `on_all` (files.hpp)
+// contains at most one collective call, and `on_all` throws on every rank.
 #pragma once
 
 #include <cstdint>
@@ -73,9 +73,9 @@ template <class Set, class... Values>
 void set(const Properties& list, const Set& set_values, Values... values) {
     checked(set_values(list.id(), values...), "cannot set a property");
 }
-/// For a new data set without a time stamp, so that equal contents give equal bytes.
+/// Properties of a new data set without a time stamp, so that equal contents give equal bytes.
 Properties dataset_creation();
-/// For a new data set whose space in the file is allocated before any numbers are written.
+/// Properties of a new data set whose space is allocated before any numbers are written.
 Properties allocated_creation();
 /// A data space of these dimensions; a single number if `dimensions` is empty.
 Space space(std::span<const hsize_t> dimensions);
@@ -110,7 +110,7 @@ private:
 /// Whether an object exists at an absolute path. Every group on the way is tested, because HDF5
 /// fails if one is missing.
 bool has(hid_t file, const std::string& path);
-/// Also makes the missing groups of the path.
+/// Makes a group, and the missing groups on its path.
 Group create_group(hid_t parent, const std::string& name);
 Dataset create_dataset(hid_t parent, const std::string& name, hid_t type,
                        std::span<const hsize_t> dimensions, const Properties& creation);

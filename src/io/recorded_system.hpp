@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The description of the discs for other programs, which holds for all frames of a file.
+// The description of the discs for other programs, which is valid for all frames of a file.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct RecordedSystem {
     std::array<bool, 4> open_boundaries{};
     /// Amplitudes of swinging walls: discs may be outside of the box by these distances
     std::array<double, 4> amplitudes{};
-    /// The point of the box that is (0, 0) for users. Positions in files count from its corner.
+    /// The point that is (0, 0) for users. It and positions in files count from the box's corner.
     std::array<double, 2> origin{};
     /// Units, such as "nm" and "ps"; empty if the scene names no units
     std::string length_unit, time_unit;

@@ -24,7 +24,7 @@ std::optional<StateHash> seal_of(const std::string& path);
 /// bytes.
 bool check_seal(const std::string& path);
 
-/// Throws FileError if a global heap of HDF5, which holds the names of segments, has an object
+/// Throws FileError if a global heap of HDF5, which contains the names of segments, has an object
 /// without a size, because HDF5 up to 2.0 never finishes reading such an object. Files above 16 MiB
 /// are not searched, because Carrom's files with such heaps are smaller.
 void check_heaps(const std::string& path);

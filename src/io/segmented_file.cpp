@@ -127,7 +127,7 @@ void SegmentedFile::check_columns(hid_t file, const Index& index) const {
         throw FileError("has other columns than this run records; see output.trajectory.fields");
 }
 
-/// Cuts off the rows behind `n`. The next rows are written to the last remaining segment.
+/// Keeps the first `n_rows` rows. The next rows are written to the last remaining segment.
 void SegmentedFile::cut(std::uint64_t n_rows) {
     is_cut_ = n_rows < n_rows_;
     std::vector<FileSegment>& segments = index_.segments;

@@ -9,7 +9,7 @@
 // A commit syncs the numbers to disk and replaces the small file by rename. The small file contains
 // the number of valid rows and checksums of all bytes; its own checksum follows its last byte,
 // where HDF5 does not read. Readers need no lock. Each segment is twice as large as the one before;
-// its unused part takes no space on disk. Rank 0 has the file, and all ranks know its state.
+// its unused part takes no space on disk. Only rank 0 has the file; all ranks throw its errors.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@
 
 namespace carrom {
 
-/// A row has `row` numbers along each axis, or one number if there is no axis.
+/// A column. Its rows have `row` numbers along each axis, or one number if there is no axis.
 struct RecordedColumn {
     std::string path;         ///< path of the data set in the file that readers open
     hid_t type;               ///< type of 4 or 8 bytes, little-endian, also in memory
@@ -108,7 +108,7 @@ private:
     /// The last segment. It stays open, so that writes never reach another file of this name.
     std::unique_ptr<Descriptor> open_;
     std::uint64_t open_size_ = 0; ///< full size of the last segment in bytes, which does not change
-    /// Checksum of the small file, as soon as this object has written it
+    /// Checksum of the small file, once this object has written or read it
     std::optional<StateHash> seal_;
     std::string failure_;
 };

@@ -6,11 +6,11 @@
 
 namespace carrom {
 
-/// Call it once, before MPI starts. It has three effects. HDF5 does nothing at the program's end.
-/// Otherwise it would repeat a failed write, at which HDF5 1.10 crashes, so that the exit code is
-/// lost. HDF5 accepts files on file systems without locks, unless HDF5_USE_FILE_LOCKING forbids it.
-/// A write beyond the limit of file sizes (ulimit -f) fails like any other, instead of ending the
-/// process.
+/// Call it once, before MPI starts. HDF5 then does nothing at the program's end. Otherwise it would
+/// repeat a failed write, at which HDF5 1.10 crashes, so that the exit code is lost. HDF5 does not
+/// lock files, whatever HDF5_USE_FILE_LOCKING is, follows no links into other files and loads no
+/// plugins. A write beyond the limit of file sizes (ulimit -f) fails like any other, instead of
+/// ending the process.
 void start_io();
 
 /// The version of HDF5, such as "1.10.8". Can be called before `start_io`.

@@ -215,7 +215,7 @@ private:
     std::span<const DiscState> discs_;
     SideSpans columns_;
     std::span<const ComputedNumbers> computed_;
-    std::span<const DiscImage> images_; ///< images of discs whose ids are still to come
+    std::span<const DiscImage> images_; ///< images of discs that are not collected yet
     double clock_;
     const TrajectoryLayout& layout_;
     const CollectedWords& collected_;

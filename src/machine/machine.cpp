@@ -237,7 +237,7 @@ std::string limit_in_the_way() {
 
 std::string warning_of_crowded_threads(int threads, std::uint64_t n_discs,
                                        const Communicator& ranks) {
-    // If threads are bound, only OpenMP knows the cores that they may use together.
+    // If threads are bound to cores, only OpenMP reports how many cores all of them may use.
     const int cores = std::max(1, omp_get_num_procs());
     const int sharers = sharers_of(allowed_cores().key, ranks);
     const std::uint64_t own = n_discs / static_cast<std::uint64_t>(ranks.size());

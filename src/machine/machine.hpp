@@ -33,8 +33,8 @@ std::string processor_name();
 /// at least 1. **Collective.**
 int default_threads(const Communicator& ranks);
 
-/// Throws CollectiveError if a rank cannot start so many threads, because OpenMP would then end the
-/// program with its own exit code. **Collective.**
+/// Throws CollectiveError if a rank cannot start this many threads, because OpenMP would then end
+/// the program with its own exit code. **Collective.**
 void check_threads(int threads, const Communicator& ranks);
 
 /// Names the limit of this process by which MPI and threads have too little memory or too few open
@@ -52,9 +52,9 @@ std::string warning_of_crowded_threads(int threads, std::uint64_t n_discs,
 /// empty.
 std::string warning_of_thread_variable();
 
-/// The memory in bytes that this rank may use: the memory of its node, or the limit of its control
-/// group or process, divided by the ranks of the node; the largest number if the system does not
-/// report it. **Collective.**
+/// The memory in bytes that this rank may use: the least of its share of the node's memory, its
+/// share of its control group's limit, and the limit of its process; the largest number if the
+/// system does not report them. **Collective.**
 std::uint64_t memory_per_rank(const Communicator& ranks);
 
 /// The largest memory in bytes that this process has used at any time; 0 if the system does not

@@ -21,7 +21,7 @@ namespace carrom {
 namespace {
 
 constexpr double seconds_between_agreements = 0.5;
-/// With more discs for each rank, on average, no copies are made.
+/// No copies are made of states with more discs than this for each rank, on average.
 constexpr double most_copied = 1e6;
 /// Least seconds between copies, in all and for each disc of a rank. A copy takes some 20 ns a
 /// disc, and about as long again for the data of measurements.

@@ -2,7 +2,7 @@
 // Decides when a run stores its state, and which stored states it keeps.
 //
 // After each stretch of steps ranks agree on two questions: has the batch system requested a stop,
-// and is a checkpoint due by wall time? A stretch takes half a second, or one longer step. Price:
+// and is a checkpoint due by wall time? A stretch takes half a second, or one longer step. Cost:
 // one reduction a stretch, also without checkpoints, because the run may have to stop.
 //
 // A step that lasts longer than a second after a request is abandoned, and leaves no consistent
@@ -47,7 +47,7 @@ public:
     bool act() override;
 
     /// Call it after a step was abandoned because of a request to stop. Stores the copy of the last
-    /// state, if there is one. Returns a sentence that says from where the run can continue.
+    /// state, if there is one. Returns a sentence about the state from which the run can continue.
     /// **Collective.**
     std::string write_copy();
 

@@ -89,12 +89,12 @@ void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
                        const Communicator& ranks, const Messages& messages) {
     const double speed = largest_speed(system, ranks);
     refuse_blurred_places(scene, speed);
-    // In shear the flow along x is much faster than discs relative to it, so y has its own speed
+    // In shear the flow along x is much faster than motion along y, so y has a limit of its own
     const bool is_flow = scene.effects.are_sheared();
     refuse_long_flights(scene, speed, is_flow ? ranks.max(fastest_up(system.discs())) : speed);
     const double blur = blurred_flight(scene, speed);
-    // An error below 1e-8 r, the width of the band before walls, does not affect bounces and
-    // overlaps. Points only have to stay on their side of a wall.
+    // An error below 1e-8 r, the tolerance of contacts with walls, does not affect bounces and
+    // overlaps. Discs of radius 0 only have to stay on their side of a wall.
     if (blur <= (scene.are_points ? 0.1 : 1e-8) * scene.radius) return;
     messages.warn(
         "{}: warning: the fastest disc goes {:.3g} radii per micro-step, and {:.3g} radii in the "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes measured tables as CSV files: remarks behind `#`, a line of names, then numbers that read
+// Writes measured tables as CSV files: remarks after `#`, a line of names, then numbers that read
 // back with the same bits.
 #pragma once
 

@@ -20,7 +20,7 @@ namespace {
 constexpr double seconds_between_commits = 0.8; ///< short enough for readers that follow a run
 constexpr double largest_share = 0.02;          ///< largest share of time that commits may take
 
-/// Compares by the total order. q + 1 turns the wall, the largest number, into 0: before all discs.
+/// Compares by the total order. Walls come before discs, because q + 1 is 0 for a wall.
 bool comes_before(const Collision& a, const Collision& b) {
     const auto key = [](const Collision& c) {
         return std::tuple(c.micro_step, c.time, c.generation, c.p, c.q + 1);

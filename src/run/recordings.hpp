@@ -3,7 +3,7 @@
 // order, and measurements, whose tables are written with each checkpoint and at the end. The table
 // "thermo" is written as it grows.
 //
-// They are committed before each checkpoint, and about once a second for readers.
+// They are committed before each checkpoint, and about once a second for programs that read them.
 #pragma once
 
 #include <cstdint>

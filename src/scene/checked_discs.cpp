@@ -84,8 +84,8 @@ void check_numbers(const SceneDraft& draft) {
     });
 }
 
-/// Computes the number of discs. It is given, or follows from a list or from species; if several of
-/// them give it, they must agree.
+/// Computes the number of discs. It is given, or follows from a list, species or groups; if several
+/// of them give it, they must agree.
 void fill_count(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     std::uint64_t n_in_species = 0;
@@ -173,7 +173,7 @@ void warn_of_lost_masses(const SceneDraft& draft) {
         heaviest.mass / lightest.mass, most, most * lightest.mass));
 }
 
-/// Two points never collide, so a scene of points must set its contacts to "none".
+/// Discs of radius 0 never collide, so they need contacts "none" and the event-driven method.
 void check_points(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!scene.are_points) return;

@@ -20,8 +20,8 @@ namespace carrom {
 
 namespace {
 
-/// Converts places from the users' coordinates to those of the computation. The result depends on
-/// the box, so it does not depend on the order of keys.
+/// Converts places from the users' coordinates to those of the computation. Box and origin are
+/// stored before, so the result does not depend on the order of keys.
 void take_origin(const SceneDraft& draft, std::span<const std::pair<const Key*, Setting*>> right) {
     if (!draft.settings.has("box.origin")) return;
     for (const auto& [key, setting] : right)

@@ -9,8 +9,8 @@
 namespace carrom {
 
 /// Fills in all but the name and the text. Without a valid `discs.count` the number of discs is 0.
-/// If box and radius are not valid together, both are 0. `columns` are the columns of
-/// `discs.columns`, if they have been read.
+/// If box and radius are not valid together, the radius is 0, and so is the box unless a file has
+/// the radii. `columns` are the columns of `discs.columns`, if they have been read.
 void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
                 const DiscColumns* columns);
 

@@ -23,7 +23,7 @@ std::string letters_of(std::string_view word) {
     return letters;
 }
 
-constexpr std::size_t most_wrong_rows = 20; ///< so many wrong rows are listed; the rest are counted
+constexpr std::size_t most_wrong_rows = 20; ///< wrong rows beyond this number are only counted
 
 std::string value_text(const Value& value) {
     if (std::holds_alternative<bool>(value.data)) return "true or false";

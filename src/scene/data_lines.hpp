@@ -3,8 +3,8 @@
 //
 // A file of discs (`discs.file`) may come from another program. So `#` begins a comment there,
 // commas or blanks separate numbers, and the first line may name the columns. Lines after a legacy
-// header, and lines of `discs.from`, have none of this. Price: one copy of each line that has
-// commas.
+// header, and lines of `discs.from`, contain only numbers and blanks. Cost: one copy of each line
+// that has commas.
 #pragma once
 
 #include <cstdint>
@@ -46,8 +46,8 @@ void replace_commas(std::string& text);
 
 /// Whether the words are column names: there are several words, and none of them is a number.
 bool are_names(const std::vector<std::string_view>& words);
-/// The column that has this name in header lines of other programs; upper and lower case are the
-/// same.
+/// The column that has this name in header lines of other programs, whether the letters are small
+/// or capital.
 std::optional<DiscColumn> column_of(std::string_view name);
 
 /// The columns of the scene's lines of discs, in their order. `discs.columns` names either all

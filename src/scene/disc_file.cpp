@@ -22,8 +22,8 @@ using Columns = std::vector<DiscColumn>;
 constexpr std::string_view expected = "expected lines `id x y vx vy`, or a first line that names "
                                       "the columns";
 
-/// Recognises the format of a file that is not a list of discs by its first line, and returns its
-/// name; empty if it may be a list.
+/// Recognises the format of a file that is not a list of discs by its first line. Returns the text
+/// of an error; empty if the file may be a list.
 std::string other_format(std::string_view line) {
     if (line.starts_with("\x89HDF"))
         return "is an HDF5 file; try: discs.from, which takes checkpoints and trajectories";
@@ -188,7 +188,7 @@ private:
     std::string place_;
     LineReader lines_;
     bool is_header_taken_ = false;
-    std::optional<Columns> columns_; ///< set if the file names its columns
+    std::optional<Columns> columns_; ///< set if they are named or guessed
     SurveyOfDiscs found_;
 };
 

@@ -3,7 +3,7 @@
 //
 // Columns are named by a header line, or by a comment that consists of their names. Otherwise the
 // number of words in the first line of data shows whether there are ids and velocities: `id x y vx
-// vy`, `x y vx vy`, `id x y` or `x y`, each followed by the scene's `discs.columns`. Price: reads
+// vy`, `x y vx vy`, `id x y` or `x y`, each followed by the scene's `discs.columns`. Cost: reads
 // one block of the file, or all of it if the scene does not give the number of discs.
 #pragma once
 

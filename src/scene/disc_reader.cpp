@@ -112,7 +112,7 @@ std::vector<Problem> DiscReader::problems() const {
     return all;
 }
 
-/// Reads the disc, or finds the first error behind its id.
+/// Reads the disc. Collects errors, except a wrong id, in `line.fault`.
 void DiscReader::parse(Line& line, std::vector<std::string_view>& words) const {
     if (line.is_cut) return;
     const std::size_t n_words = columns_.size();

@@ -57,7 +57,7 @@ public:
         const InParts& in_parts = [](std::size_t n, const auto& work) { work(0, n); });
 
     /// All errors of the lines, and missing ids. Call it after `read` has returned false. Not for
-    /// parts, because they do not know their line numbers.
+    /// parts, whose line numbers are unknown.
     std::vector<Problem> problems() const;
     /// Whether no wrong line has been found in a part so far.
     bool is_flawless() const {

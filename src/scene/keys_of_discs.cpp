@@ -112,7 +112,7 @@ Key origin_key() {
     return origin;
 }
 
-/// 0 stands for points, which have a small radius in computations (SceneParameters::are_points).
+/// A radius of 0 means points, which have a small radius in computations (see are_points).
 Key radius_key() {
     Key radius =
         key("discs.radius", "length",

@@ -15,7 +15,7 @@ inline constexpr std::array words_of<MassKind>{Word<MassKind>{"area", MassKind::
 
 namespace {
 
-/// The range of the largest radius divided by the smallest one.
+/// The range of the smallest and the largest radius, in units of the mean.
 constexpr Range shares{0x1p-20, 0x1p20};
 
 /// The scene's distribution. Scenes without the table have the defaults.

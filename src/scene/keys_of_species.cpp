@@ -70,8 +70,8 @@ public:
                 numbers_[column] = scene.first_numbers[column];
     }
 
-    /// The row for the next discs of a species, from `first` on. `end` is at most the given value,
-    /// and becomes the end of the row.
+    /// The row for the next discs of a species, from `first` on. Lowers `end` to the end of the
+    /// row if the row ends before.
     Numbers next(const Species& one, DiscId first, DiscId& end) {
         Numbers row(species_row::share_of_area + 1, not_given);
         row[species_row::radius] = one.radius;
@@ -100,7 +100,7 @@ public:
 private:
     const SceneParameters& scene_;
     FirstNumbers numbers_;
-    BySideColumn<std::size_t> next_; // the next place in each column
+    BySideColumn<std::size_t> next_; // index in the runs of each column
     std::vector<RegionRun>::const_iterator region_;
     std::vector<SpeciesRow>::const_iterator row_;
 };

@@ -94,8 +94,8 @@ struct Room {
     double low = 0, high = 0;
 };
 
-/// Bounds of centres. The upper one allows for rounding of L - r here and in the program that wrote
-/// the input, an ulp of L, at most 2^-52 L. Discs leave an open side a radius beyond it.
+/// Bounds of centres. They allow for rounding of L - r here and in the program that wrote the
+/// input, an ulp of L, at most 2^-52 L. Discs leave an open side a radius beyond it.
 Room room_along(Axis axis, const SceneParameters& scene, double radius) {
     const bool is_x = axis == Axis::x;
     const Extent walls = extent_at(scene.effects, scene.box, 0); // at time 0: sides may swing

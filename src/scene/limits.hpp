@@ -20,17 +20,17 @@ inline constexpr std::uint64_t largest_count = 0xFFFFFFFEu;
 inline constexpr std::int64_t largest_steps = std::int64_t{1} << 53;
 /// Just above pi / (2 sqrt 3), the densest packing of the plane
 inline constexpr double largest_packing = 0.9069;
-/// Above about 0.54 random insertion takes too long
+/// Random insertion slows down above this packing, and jams at about 0.54
 inline constexpr double largest_random_packing = 0.5;
-/// Largest number of micro-steps in single precision: floats resolve 1/2048 of each
+/// Most micro-steps between syncs in single precision: a float then resolves 1/2048 of one
 inline constexpr std::int64_t longest_single_sync = 4096;
 inline constexpr double smallest_single_size = 0x1p-40,
-                        largest_single_size = 0x1p+40; ///< fourth powers of such sizes are floats
-/// Largest ratio L / r. There the rounding of a position, 1e-10 r, is a hundredth of the wall band
-/// 1e-8 r; in larger boxes positions would be too coarse for contacts with walls.
+                        largest_single_size = 0x1p+40; ///< third powers of such sizes are floats
+/// Largest ratio L / r. Positions are then rounded by 1e-10 r, a hundredth of the tolerance of
+/// contacts with walls, 1e-8 r. In larger boxes positions would be too coarse for these contacts.
 inline constexpr double largest_box_in_radii = 1e6;
 inline constexpr double longest_drag = 4; ///< limit of drag's rate times the time between syncs
-/// Limit of crossings in a micro-step; beyond it all collisions have equal times
+/// Limit of crossings of the box in a micro-step; beyond it all collisions have equal times
 inline constexpr double most_crossings = 0x1p40;
 
 /// The largest sum of the radii of a fixed body and a disc, relative to a periodic box, so that a

@@ -48,7 +48,7 @@ std::string read_all(std::istream& stream, const std::string& name) {
     return text;
 }
 
-/// Reads one line character by character, so that the stream is left directly behind the line.
+/// Reads one line character by character, so that the stream stops directly after the line.
 bool take_line(std::istream& stream, std::string& line) {
     line.clear();
     for (int c = stream.get(); c != std::istream::traits_type::eof(); c = stream.get()) {

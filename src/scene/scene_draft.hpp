@@ -76,7 +76,7 @@ inline double steps_between_syncs(const SceneParameters& scene) {
 }
 
 /// Checks the number, sizes, positions and speeds of discs. Returns false if box or radius may be
-/// wrong; then both are 0.
+/// wrong, or if the number of discs is in a file that has not been read.
 bool check_discs(const SceneDraft& draft);
 
 /// Reports conditions of `[time.stop]` on properties that the scene's discs do not have.

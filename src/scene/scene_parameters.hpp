@@ -48,7 +48,7 @@ struct InputDisc {
     friend bool operator==(const InputDisc&, const InputDisc&) = default;
 };
 
-/// Discs with consecutive ids, up to `end`, that start with the same number. A rate is per
+/// Discs with consecutive ids, up to `end` - 1, that start with the same number. A rate is per
 /// step.
 struct NumberRun {
     DiscId end = 0;
@@ -95,7 +95,7 @@ struct StartRegion {
 
     friend bool operator==(const StartRegion&, const StartRegion&) = default;
 };
-/// Discs with consecutive ids, up to `end`, that have the same region or no own region.
+/// Discs with consecutive ids, up to `end` - 1, that have the same region or no own region.
 struct RegionRun {
     DiscId end = 0;
     std::optional<StartRegion> region;
@@ -126,7 +126,7 @@ enum class Transfers { independent, collective };
 
 /// `[output.checkpoint]`: when and where the state is stored, besides at the end and on a signal.
 struct CheckpointOutput {
-    std::string folder; ///< relative to the run's folder
+    std::string folder; ///< in the run's folder; relative to the working folder
     std::optional<std::int64_t> every_steps;
     std::optional<double> every_minutes; ///< wall time in minutes
     std::int64_t keep = 2;               ///< number kept; older ones are removed
@@ -136,7 +136,7 @@ struct CheckpointOutput {
 
 /// `[output.trajectory]`: frames in one file, at regular steps or at steps that grow by a factor.
 struct TrajectoryOutput {
-    std::string file; ///< relative to the run's folder
+    std::string file; ///< in the run's folder; relative to the working folder
     std::int64_t every_steps = 1;
     std::int64_t frames_per_decade = 0; ///< 0: frames at regular steps
     bool has_position = true, has_velocity = true, has_collisions = false;
@@ -159,7 +159,7 @@ struct MeasurementOutput {
         bool is_given = false; ///< given by the scene; otherwise computed by a check
     };
 
-    std::string folder; ///< relative to the run's folder
+    std::string folder; ///< in the run's folder; relative to the working folder
     std::int64_t every_steps = 10, from_step = 0;
     /// Names of quantities in the order of the scene
     std::vector<std::string> quantities;
@@ -215,8 +215,8 @@ struct SceneParameters {
     /// Velocities of listed discs are drawn, because the scene gives `discs.speed` or
     /// `discs.temperature` for the list
     bool draws_velocities = false;
-    /// For Generator::compressed: rate of the largest diameter relative to the root mean square
-    /// speed
+    /// For Generator::compressed: growth rate of the largest diameter, relative to the root mean
+    /// square speed
     double compression_rate = 0.01;
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;

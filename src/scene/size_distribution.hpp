@@ -36,8 +36,8 @@ struct SizeDistribution {
 /// The largest number of parts.
 constexpr std::uint64_t most_size_parts = 1000;
 
-/// The limits of radii, in units of the mean, if the scene does not give them. Normal and lognormal
-/// distributions are cut three standard deviations from the middle.
+/// The limits of radii, in units of the mean. By default, normal and lognormal distributions are
+/// cut three standard deviations from the middle.
 struct SizeLimits {
     double smallest = 0, largest = 0;
 };

@@ -15,7 +15,7 @@ namespace {
 
 /// The most parts of a key, because the parser recurses for each part; scenes need three.
 constexpr int most_parts = 32;
-constexpr std::size_t most_unknown = 20; ///< so many unknown keys are listed; the rest are counted
+constexpr std::size_t most_unknown = 20; ///< unknown keys beyond this number are only counted
 
 std::int64_t line_of(const toml::source_region& source) {
     return static_cast<std::int64_t>(source.begin.line);

@@ -20,11 +20,11 @@ std::string instead_of(std::string_view key);
 /// The message for a table to which the input gives a single value.
 std::string table_text(std::string_view key, const Value& value);
 
-/// Text such as "; did you mean "all"?" with the nearest name, in `quote`s. A name is near enough
-/// if at most one letter, or up to a third of the letters, is wrong. Otherwise the text is empty.
+/// Text such as "; did you mean "all"?" with the nearest name, in `quote`s; empty if every name
+/// differs in more than one letter and in more than a third of the letters.
 std::string guess(std::string_view name, std::span<const std::string_view> names, char quote);
 
-/// The number of insertions, deletions and replacements that turn `a` into `b`.
+/// The least number of insertions, deletions, replacements and swaps of neighbours from `a` to `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 } // namespace carrom

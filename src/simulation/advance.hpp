@@ -24,7 +24,7 @@ public:
     virtual void commit() {}
 };
 
-/// The time in seconds that a run has spent on this rank.
+/// Seconds that this rank has spent in the steps of a run, and in the actions between steps.
 struct StretchSeconds {
     double steps = 0, actions = 0;
 };

@@ -20,10 +20,10 @@ namespace carrom {
 namespace {
 
 constexpr double first_packing = 0.3; ///< packing of the random gas
-/// Relative growth of radii in a stretch: in the first one, at most, and divided by the relative
-/// room that is left.
+/// Relative growth of radii: in the first stretch, the largest one in any stretch, and the largest
+/// one as a share of the relative room that is left.
 constexpr double first_growth = 0.01, most_growth = 0.05, share_of_room = 0.1;
-/// Discs have jammed if less room than this is left: their pressure is N kT / A over the room.
+/// Discs have jammed if the relative room is below this; the pressure is N kT / A divided by it.
 constexpr double jammed_room = 1e-6;
 /// Radii grow by this share more than required, so that rounding leaves no overlap.
 constexpr double margin = 0x1p-30;
@@ -57,8 +57,8 @@ public:
     }
 
 private:
-    /// The scene of one stretch, which is one step of one micro-step. Masses are equal; walls and
-    /// fixed bodies are elastic.
+    /// The scene of one stretch, which lasts one step of one micro-step. Masses are equal; walls
+    /// and fixed bodies are elastic.
     SceneParameters stretch() const {
         SceneParameters scene;
         scene.name = scene_.name;

@@ -22,8 +22,8 @@ HexaticSums sampled_order(DiscSystem& system, std::uint64_t most_discs);
 /// psi6 of each own disc, in the order of `DiscSystem::discs` after the call, which moves the discs
 /// in memory. **Collective.**
 std::vector<BondOrder> bond_orders(DiscSystem& system);
-/// The numbers of computed_fields.hpp for each own disc, 0 for departed discs. They have the order
-/// of `bond_orders`; this call moves the discs, too. **Collective.**
+/// The numbers of computed_fields.hpp for each own disc; 0 for discs without a Voronoi cell, such
+/// as departed ones. The order is that of `bond_orders`; the discs move, too. **Collective.**
 std::vector<ComputedNumbers> computed_numbers(DiscSystem& system);
 
 } // namespace carrom

@@ -18,7 +18,7 @@ MotionSample motion_sample(const DiscSystem& system);
 /// Adds the integrals of stress and energy; `mine` are the sums of this rank over the interval.
 /// **Collective.**
 void integrate(const DiscSystem& system, const StressSums& mine, MotionSample& sample);
-/// Adds only the flights since the last sync, which the sums lack.
+/// Adds to `sample` only the flights since the last sync, which DiscSystem::stress_sums lacks.
 void integrate_flights(const DiscSystem& system, MotionSample& sample);
 
 /// Adds to counts[k] this rank's pairs of discs whose present distance is k to k + 1 times

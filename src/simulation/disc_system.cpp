@@ -142,8 +142,8 @@ DiscSystem::DiscSystem(const SceneParameters& scene, StoredState state,
       engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averaged_system_(
           std::make_unique<AveragedSystem>(system_to_average(scene, engine_->n_discs()))) {
-    // Typical terms are 2^45 units, and sums may reach 2^80 units. The largest terms are those of
-    // whole flights. Rare larger terms are added in a slower way.
+    // Typical terms are 2^45 units, and sums may reach 2^80 typical terms. The largest terms are
+    // those of whole flights. Rare larger terms are added in a slower way.
     const double speed = usual_speed(scene, engine_->own(), communicator),
                  flight = speed * static_cast<double>(longest_flight);
     begin_stress_sums(heaviest_ * std::max(scene.radius, flight) * speed * 0x1p80);

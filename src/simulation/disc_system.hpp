@@ -26,7 +26,7 @@ struct StressSums;
 
 class DiscSystem {
 public:
-    /// Takes the scene's `discs` (velocities per step, tau 0), in any
+    /// Takes the scene's `discs` at step 0, with velocities per step, in any
     /// distribution over the ranks. Velocities become those per micro-step.
     /// **Collective.**
     DiscSystem(const SceneParameters& scene, std::vector<InputDisc> discs,
@@ -48,19 +48,19 @@ public:
     /// include the discs that have left the box (DiscState::has_departed). Valid until the next
     /// call.
     std::span<const DiscState> discs() const;
-    /// The numbers of side columns in the order of `discs()`. Valid until the next call.
+    /// The side columns (core/side_columns.hpp) in the order of `discs()`, until the next call.
     SideSpans side_columns() const;
-    /// The spins, in angles per micro-step; empty if discs are not rough.
+    /// The spins, in radians per micro-step; empty if discs are not rough.
     std::span<const double> spins() const { return side_columns()[SideColumn::spin]; }
     /// The radius and the mass of each disc. A copy shares the memory.
     const SpeciesTable& species_table() const;
     /// The species table, or null if all discs are equal.
     const SpeciesTable* species_if_mixed() const;
     double heaviest() const { return heaviest_; } ///< the largest mass of a disc
-    /// The present time in micro-steps since the last sync, for DiscState::x_at.
+    /// The present time for DiscState::x_at: micro-steps since the last sync, or a frame's clock.
     double clock() const;
-    /// The frame of the coordinates of `discs()` at `clock()`. It is the frame of the box
-    /// unless discs fall.
+    /// The frame (core/frame.hpp) of the coordinates of `discs()` at `clock()`. It is the frame
+    /// of the box unless discs fall.
     Frame frame() const;
     /// The own discs at `clock()` in the coordinates of the box. This is `discs()` itself unless
     /// discs fall; otherwise it is valid until the next call.
@@ -76,7 +76,7 @@ public:
     const Effects& effects() const { return effects_; } ///< times in steps
     const Communicator& ranks() const { return communicator_; }
     int n_threads() const { return n_threads_; }
-    /// The engine, for followers of collisions and for measurements. Only `advance_towards` may
+    /// The engine, for code that follows collisions or measures. Only `advance_towards` may
     /// advance it, and only `log_to` may set its log.
     Engine& engine() { return *engine_; }
     const Engine& engine() const { return *engine_; }
@@ -90,7 +90,7 @@ public:
     const StressSums& stress_sums() const;
     double stress_bound() const { return stress_bound_; }
     const AveragedSystem& averaged_system() const { return *averaged_system_; }
-    /// Restarts the sums in another unit, which the measurements of a checkpoint need. Call it
+    /// Restarts the sums of stress in the unit that a checkpoint's measurements have. Call it
     /// before any step.
     void begin_stress_sums(double bound);
 
@@ -102,7 +102,7 @@ public:
 
     /// **Collective.**
     Totals totals() const;
-    /// Only number, energies and momentum. Takes two passes over the discs. **Collective.**
+    /// Only the number of discs, energies and momentum. Takes two passes. **Collective.**
     Totals energies() const;
 
 private:

@@ -18,7 +18,7 @@ namespace carrom {
 namespace {
 
 /// The scene of a group alone, whose box is the region of the group. `number` counts groups, so
-/// that equal groups get different random numbers. A region over a whole period is periodic, too.
+/// that equal groups get different random numbers. A region as long as a period is periodic, too.
 SceneParameters scene_of_group(const SceneParameters& scene, const DiscGroup& group, double radius,
                                std::uint64_t number) {
     const StartRegion region = region_of(scene, group);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the initial discs of a scene, for any generator. Other functions handle only some of the
-// generators.
+// Makes the initial discs of a scene, for any generator. load_places (scene_input.hpp) handles only
+// some of the generators.
 //
 // Groups are placed one after the other. Lattices and compressed discs fill their regions as if
 // each region were a box; then random discs are placed in the gaps. Velocities are drawn last,
@@ -17,8 +17,8 @@
 namespace carrom {
 
 /// Returns the scene's discs, in any distribution over the ranks, with velocities. `following` is
-/// as in load_places. If the scene freezes discs, it must contain them already. Throws InputError
-/// on every rank. **Collective.**
+/// as in load_places. The scene must not freeze discs. Throws InputError on every rank.
+/// **Collective.**
 std::vector<InputDisc> first_discs(const SceneParameters& scene, std::istream* following,
                                    const Communicator& communicator, const Tuning& tuning);
 

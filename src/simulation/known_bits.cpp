@@ -28,7 +28,7 @@ const char* known_hash(Method method) {
                                           : "27f1b7fd3822c8519554c9040e1df5c3";
 }
 
-/// Discs on a square lattice at a packing fraction of 0.4, with irregular velocities.
+/// The state hash after a run of a square lattice of packing 0.4 with irregular velocities.
 std::string hash_of(Method method) {
     SceneParameters scene;
     scene.box = {lattice_side, lattice_side};

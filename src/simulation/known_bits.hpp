@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests whether this build, on this processor, computes the same bits as others. Not all compiler
-// flags that change floating-point arithmetic can be detected when compiling, and libraries may set
-// flags that change floating-point arithmetic can be detected when compiling, and libraries may set
-// modes of the processor at run time. So a program runs two small scenes, one for each method,
-// before the user's scene, and compares their state hashes with recorded hashes.
+// Tests whether this build, on this processor, computes the same bits as others.
+//
+// Not all compiler flags that change floating-point arithmetic can be detected when compiling, and
+// libraries may set modes of the processor at run time. So a program runs two small scenes, one for
+// each method, before the user's scene, and compares their state hashes with recorded hashes.
 // Cost: about a millisecond.
 #pragma once
 

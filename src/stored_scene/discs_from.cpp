@@ -56,7 +56,7 @@ std::vector<std::uint64_t> count_species(const std::vector<Species>& species,
     return counts;
 }
 
-/// The row in the file of the disc with the new number `id`.
+/// The row in the file of the disc with the new id `id`.
 std::uint64_t row_of(std::uint64_t id, const std::vector<std::uint64_t>& departed) {
     std::uint64_t row = id;
     for (const std::uint64_t left : departed) {
@@ -128,8 +128,8 @@ private:
     std::uint64_t departed(std::ptrdiff_t k) const {
         return share_.departed[static_cast<std::size_t>(k)];
     }
-    /// The file was checked before, so it has been damaged since then. Other ranks do not have this
-    /// error, so it must not be thrown as an error of all ranks.
+    /// Reads rows. An error means that the file was damaged after its check. Other ranks do not
+    /// have this error, so it must not be thrown as an error of all ranks.
     void read(std::uint64_t begin, std::uint64_t end) {
         try {
             file_.read(frame_, begin, end, rows_);
@@ -144,7 +144,7 @@ private:
 
     FrameFile file_;
     std::size_t frame_;
-    std::vector<std::size_t> places_; ///< columns of the file
+    std::vector<std::size_t> places_; ///< indices of the columns in the file
     double moved_x_, moved_y_;        ///< shift from the file's corner to the scene's corner
     ShareOfDiscs share_;
     std::uint64_t first_row_, row_ = 0;     ///< rows of the file

@@ -40,8 +40,8 @@ struct ShareOfDiscs {
 /// Positions keep the coordinates that the other run shows. If the scene has another `origin`, the
 /// shift between the origins is added with rounding; otherwise positions equal those in the file.
 ///
-/// Finds the frame of `step`, or the last one. `wanted` are columns beside the states, which are
-/// read if the file has them. The lines are those of `share`, or of all discs without it. Call
+/// Finds the frame of `step`, or the last one. `wanted` are the side columns that are to be read if
+/// the file has them. The lines are those of `share`, or of all discs without it. Call
 /// check_damage before. Throws an InputError that names the file. Not collective.
 FileOfDiscs read_discs_from(const std::string& path, std::optional<std::int64_t> step,
                             const SideColumnSet& wanted, const Origin& origin,

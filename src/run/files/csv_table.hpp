@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A new CSV table that grows line by line; each line is on disk as soon as it is known. Tables of
+// A new CSV table that grows line by line; each line is written as soon as it is known. Tables of
 // several processes can be concatenated.
 #pragma once
 
@@ -21,7 +21,7 @@ private:
     bool has_begun_ = false;
 };
 
-/// The text with every character replaced that would need quotes in CSV.
+/// The text, with ';' in place of each character that would need quotes in CSV.
 std::string plain_field(std::string text);
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Output of a run's data to standard output or a file. Writes are large, and a failure
-// is remembered instead of ending the process.
+// is stored instead of ending the process.
 //
 // It uses a file descriptor, so a closed pipe or a full disk is an errno at a known
 // place. The caller reports a failure to the other ranks.

@@ -13,7 +13,7 @@
 
 namespace carrom {
 
-/// A file that is read, and what refers to it, for example "the scene".
+/// A file that is read, and its name in messages, for example "the scene".
 struct NamedFile {
     std::string name;
     std::string path;
@@ -31,7 +31,7 @@ enum class Output {
     of_folder ///< a file of the run's own folder, which the run may replace
 };
 
-/// An output, and what refers to it, for example "--output".
+/// An output, and its name in messages, for example "--output".
 struct Destination {
     std::string name;
     std::string path;

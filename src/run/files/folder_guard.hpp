@@ -3,7 +3,7 @@
 //
 // Files are opened by their paths, so the run would otherwise continue in any folder that has taken
 // the name, such as another run's folder, or an empty one under a mount that is gone. The open lock
-// file shows that its path has changed. Price: two system calls and a reduction for each stretch of
+// file shows that its path has changed. Cost: two system calls and a reduction for each stretch of
 // steps, in runs with a folder.
 #pragma once
 

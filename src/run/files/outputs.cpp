@@ -72,8 +72,8 @@ WriteLock locked(const std::string& folder, MadeFolders made, PlaceProblems& fou
     return lock;
 }
 
-/// If `locks` is null, makes and locks nothing. Otherwise adds locks to it if there are no
-/// problems.
+/// Adds the problems of the run's outputs to `found`. If there are none, makes the folder and adds
+/// its lock to `locks`; if `locks` is null, makes and locks nothing.
 void check_places(PlaceProblems& found, const RunOptions& options, const SceneParameters& scene,
                   const std::vector<NamedFile>& sources, std::vector<Destination> destinations,
                   std::vector<WriteLock>* locks) {

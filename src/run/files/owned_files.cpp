@@ -36,7 +36,7 @@ bool is_same_folder(const fs::path& folder, const std::string& own) {
     return !own.empty() && folder == canonical(own);
 }
 
-/// Tests for a folder of checkpoints, which a run makes before it writes anything else.
+/// Whether the folder is a run's: it contains a lock, or checkpoints and other files of a run.
 bool is_run_folder(const fs::path& folder) {
     std::error_code error;
     if (is_there(folder / lock_of_run)) return true;

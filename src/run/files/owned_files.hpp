@@ -15,8 +15,8 @@ namespace carrom {
 /// is the folder of the present run, which may not have begun; it may be empty.
 std::string owner_of_file(const std::string& path, const std::string& own_folder);
 
-/// The owner of the folder that contains a path, if only the owner may make files there: a run owns
-/// its folders for checkpoints, recordings and tables.
+/// The owner of a folder, or of the folder around it, if only the owner may make files there: a run
+/// owns its folders for checkpoints, recordings and tables. Empty if there is none.
 std::string owner_of_folder(const std::string& path);
 
 /// Whether the path is in a subfolder of a run in `folder`, whose files the run may remove.

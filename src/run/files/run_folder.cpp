@@ -60,7 +60,7 @@ bool is_of_start(const std::string& path) {
     }
 }
 
-/// Whether a table has a line of names and at most the row of the first sample.
+/// Whether a file is the table "thermo" with at most one row, which is the first sample's.
 bool has_rows_of_start(const fs::path& path) {
     std::ifstream file = open_plain_file(path);
     std::size_t n_lines = 0;

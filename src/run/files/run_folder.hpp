@@ -23,12 +23,12 @@ bool is_subfolder_of_run(std::string_view name);
 /// The name of the folder of replica `k`.
 std::string name_of_replica(std::int64_t k);
 
-/// The names of the run's files that are directly in the folder.
+/// The paths of the files that a run may have directly in the folder.
 std::vector<std::string> files_of_run(const std::string& folder);
 std::string report_of_run(const std::string& folder);
 std::string checkpoints_of_run(const std::string& folder);
 
-/// The name of a file in the folder that a run has written; empty if there is none.
+/// The name of a file or subfolder that a run has written in the folder; empty if there is none.
 std::string trace_of_run(const std::string& folder);
 
 /// The name of a file in the folder with data of steps after 0; empty if there is none. A file that

@@ -17,11 +17,11 @@ namespace {
 constexpr double approach = 10; ///< collisions of a disc before the measurement of a trial begins
 constexpr double certainty = 2; ///< standard errors that are added to a measured error
 constexpr double most_collisions = 4e6; ///< number of pair collisions in a trial
-/// The best accuracy that a trial resolves: sqrt(4e6) is 2000
+/// The best accuracy that a trial of 4e6 collisions resolves; sqrt(4e6) is 2000
 constexpr double least_accuracy = 4 * certainty / 2000;
 /// The least number of collisions of a disc in a trial, because errors in dense gases appear late
 constexpr double per_disc = 100;
-/// Trials of fewer pair collisions cannot be timed, unless they have so many disc-steps or steps.
+/// Trials need this many pair collisions to be timed, or these numbers of disc-steps and steps.
 constexpr double fewest_collisions = 2e4;
 constexpr double long_enough = 2e4;
 constexpr double long_enough_steps = 1e3;
@@ -155,7 +155,7 @@ Choice choose(const Pilot& pilot, double accuracy) {
     return {all, "method = \"event-driven\": no number of micro-steps is good enough"};
 }
 
-/// Throws an InputError with advice.
+/// Brings the discs to equilibrium. Adds advice to an InputError. **Collective.**
 TrialStart start_of_pilot(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                           const Communicator& communicator, const Tuning& tuning) {
     try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Restarts from a checkpoint. The plan contains where to search for checkpoints, and which files
-// exist. It uses only options and the names of files. Another function reads the newest of these
+// exist. It uses only options and the names of files. `read_restart` reads the newest of these
 // files that is undamaged and belongs to the scene's run.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace carrom {
 
-/// Where a run's first state comes from; the same on every rank.
+/// The source of a run's first state; the same on every rank.
 struct RestartPlan {
     enum class From {
         scene,     ///< the run starts at step 0

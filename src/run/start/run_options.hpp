@@ -34,7 +34,7 @@ struct RunOptions {
     std::optional<int> threads;
     std::optional<std::int64_t> steps; ///< steps of the command line, also among the overrides
     std::optional<double> accuracy;    ///< accuracy of the command line, also among the overrides
-    Tuning tuning; ///< all settings except the number of threads, which is the machine's
+    Tuning tuning; ///< all settings except the number of threads, which `threads` sets
     Messages messages;
 };
 

@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// Each rank holds some of the discs, in any distribution.
+/// Each rank has some of the discs, in any distribution.
 struct RunStart {
     std::vector<InputDisc> discs{};      ///< initial discs of a run from step 0
     std::optional<StoredState> stored{}; ///< the state from which a restart continues

@@ -60,7 +60,7 @@ std::string other_number(const FileOfDiscs& file, std::uint64_t n_wanted) {
     return text + fmt::format(", and the scene is of {}", n_wanted);
 }
 
-/// A note that discs have departed and the others have new numbers.
+/// A warning that discs have departed and the others have new ids.
 std::string note_on_departed(const std::string& path, const FileOfDiscs& file) {
     return fmt::format("{} of {} discs in {} departed by an open side and are left out; the others "
                        "have the ids 0 to {} here, in their order",
@@ -68,15 +68,15 @@ std::string note_on_departed(const std::string& path, const FileOfDiscs& file) {
                        file.n_discs - 1);
 }
 
-/// What `discs.from` adds to a scene; the same on every rank.
+/// The settings and the warning that `discs.from` adds to a scene; the same on every rank.
 struct FromFile {
     std::vector<std::string> settings;
     std::string warning; ///< empty if the scene contains all discs of the file
-    double radius = 0;   ///< radius of the file's discs
+    double radius = 0;   ///< radius of the largest disc in the file
 };
 
-/// A note that a packing fraction changes the radii because discs have departed. Empty if the radii
-/// are the same.
+/// The end of that warning if discs.packing changes the radii, because discs have departed; empty
+/// if the radii are the same.
 std::string note_on_radius(const SceneParameters& scene, const FromFile& from) {
     if (!(scene.radius > from.radius * (1 + 1e-9))) return {};
     const std::string remedy = scene.sizes ? "discs.radius.mean"
@@ -130,7 +130,7 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
     ranks.broadcast(file.columns);
     ranks.broadcast(file.departed);
     ranks.broadcast(file.radius);
-    // rank 0 finds such an error, because it reads all lines
+    // errors are ignored here, because rank 0 reads all lines and finds them
     if (!ranks.is_root() && file.n_discs > 0)
         problems_of([&] {
             const Slab share = slab_of_rank(ranks.rank(), file.n_discs, ranks.size());

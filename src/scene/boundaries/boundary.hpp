@@ -48,7 +48,7 @@ struct BoundaryDeclaration {
 /// All kinds in the order of the list, which is the order of the reference.
 const std::vector<BoundaryDeclaration>& all_boundaries();
 
-/// The keys of all four sides, ordered by key.
+/// The keys of all four sides, ordered by side.
 std::vector<Key> keys_of_boundaries();
 /// Text such as "left wall of restitution 0.9; top side open"; empty if all sides are elastic
 /// walls.

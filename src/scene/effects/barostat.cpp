@@ -20,7 +20,7 @@
 // value.
 //
 // Only + - * / and sqrt are used. The logarithm of V' / V is computed by a series, and a random
-// number with an exponential distribution decides about a move. Price: one exchange of the halo and
+// number with an exponential distribution decides about a move. Cost: one exchange of the halo and
 // a pass over pairs that are near each other, every `time.sync_every` micro-steps.
 #include <algorithm>
 #include <bit>
@@ -118,9 +118,9 @@ private:
         return {low, low * cell_ratio};
     }
 
-    /// The largest change of a move, a few times V / (N (Z - 1)): by about this volume the closest
-    /// pair limits moves. It is the same throughout the cell, so that a move and its reverse have
-    /// the same probability.
+    /// The largest change of a move: a few times V / (N (Z - 1)), the typical compression until the
+    /// closest pair touches. It is the same throughout the cell, so that a move and its reverse
+    /// have the same probability.
     double range_in(const Cell& cell) const {
         const double volume = volume_at(cell.high),
                      excess = std::max(pressure_ * volume / n_discs_ - 1, 1 / std::sqrt(n_discs_));

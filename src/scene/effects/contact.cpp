@@ -32,7 +32,7 @@ const Need rows_of_lossy_discs{
         return are_pairs_lossy(s.effects) && !s.effects.contact.rows.empty();
     }};
 constexpr Range shares{0, 1};
-constexpr std::size_t most_rows = 100; ///< a table has the square of so many entries
+constexpr std::size_t most_rows = 100; ///< a table has the square of this number of entries
 
 /// The indices of the numbers in a row of `effects.contact.pairs`.
 namespace pair_row {
@@ -147,7 +147,7 @@ void check_pairs(const SceneDraft& draft) {
 }
 
 /// Checks that the contact time is short compared with the time between syncs, because a sync
-/// forgets a disc's last collision.
+/// deletes the time of a disc's last collision.
 void check_contact_time(const SceneDraft& draft) {
     limit_contact_time(draft, steps_between_syncs(draft.scene) / 4,
                        "a quarter of the time between syncs ('time.sync_every')");

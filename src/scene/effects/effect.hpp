@@ -56,11 +56,11 @@ struct ShownDisc {
 /// over all discs in the box.
 struct OtherEnergy {
     const char* name;       ///< the energy's name in the report
-    const char* words;      ///< text behind its value in the summary
+    const char* words;      ///< text after the value in the summary
     double Totals::* value; ///< where the sum is kept; effects with the same name share it
     double (*of_disc)(const ShownDisc&, const Effects&, const Box&);
-    /// For an energy of position: its largest value for a mass of 1, which sets the scale of
-    /// rounding.
+    /// The largest value of an energy of position for a mass of 1, which sets the scale of
+    /// rounding; null for other energies.
     double (*largest)(const Effects&, const Box&) = nullptr;
     /// Whether it turns into kinetic energy only at syncs. The engine sums up the energy that discs
     /// gain there, so the self-check leaves it out.
@@ -77,7 +77,7 @@ struct Way {
 struct EndNumber {
     const char* name;  ///< the number's name in the report
     const char* label; ///< label of its line in the summary
-    const char* words; ///< text behind its value in the summary
+    const char* words; ///< text after the value in the summary
     std::uint64_t value;
 };
 
@@ -132,8 +132,8 @@ struct EffectDeclaration {
     /// Whether the effect balances other changes between syncs, so that the kinetic energy jumps at
     /// each sync.
     bool (*makes_energy_jump)(const Effects&) = nullptr;
-    /// For an effect that exchanges momentum with discs in other ways than through the sides of the
-    /// box.
+    /// How the effect exchanges momentum with discs in other ways than through the sides of the
+    /// box; null if it does not.
     CommonMotion (*common_motion)(const Effects&, Axis) = nullptr;
     /// Whether kernels of GPUs contain the effect. If the function is missing, the effect cannot be
     /// combined with machine.gpu.

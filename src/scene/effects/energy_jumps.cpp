@@ -60,7 +60,7 @@ void warn_of_rare_acts(const SceneDraft& draft) {
 }
 
 /// Warns of samples that always have the same delay after a sync, because they do not give the mean
-/// over time. Samples at syncs do: they alternate between before and after the effects act.
+/// over time. Samples at syncs do, because they are taken alternately before and after the effects.
 void warn_of_samples_between_syncs(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements || !does_energy_jump(scene.effects)) return;

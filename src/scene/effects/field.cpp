@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A field that is constant in time (dynamics/external_field.hpp), by kicks at syncs: half a kick, a
+// A field constant in time (dynamics/external_field.hpp) acts by kicks at syncs: half a kick, a
 // flight from sync to sync, half a kick (G. Strang, SIAM J. Numer. Anal. 5, 506 (1968)). A kick is
 // v -= (t / 2) grad V / m at the position at the sync; t is the time between syncs.
 //
@@ -74,7 +74,7 @@ Need field_kinds(std::string text, FieldKinds kinds) {
             }};
 }
 
-/// Takes the values of rows. Wrong rows are left out, because they are reported elsewhere.
+/// Takes the values of rows, or none if a row is wrong, which is reported elsewhere.
 void take_rows_of_field(FieldValues& values, const Values& rows) {
     values = {};
     for (const Value& row : rows) {

@@ -4,7 +4,7 @@
 // L. Berthier and D. Coslovich, Phys. Rev. X 7, 021039 (2017); L. Berthier and others, Nature
 // Commun. 10, 1508 (2019)).
 //
-// All radii are numbered in ascending order, and each disc holds one number. In a round
+// All radii are numbered in ascending order, and each disc has one number. In a round
 //   1. pairs of numbers are proposed, by random words that depend on seed, sync and round alone.
 //      Each number is in one pair at most. A disc's "room" is the radius that it may have
 //      afterwards: the larger radius of its pair, or its own radius if it is in no pair.
@@ -19,7 +19,7 @@
 // where all states have the same weight.
 //
 // Whether a disc fits depends on its neighbours alone. So ranks decide for their own discs and
-// gather those that fit, and the result depends neither on ranks nor on threads. Price: a halo as
+// gather those that fit, and the result depends neither on ranks nor on threads. Cost: a halo as
 // deep as the largest diameter at each sync, and an exchange between all ranks each round.
 #include <algorithm>
 #include <bit>
@@ -76,7 +76,7 @@ struct Proposals {
     }
 };
 
-/// For each own disc, the other discs within the range of its search.
+/// The other discs within the search range of each own disc.
 class Neighbours {
 public:
     struct One {
@@ -215,7 +215,7 @@ private:
     }
 
     /// The lower number of the pair, for each own disc that fits. A number occurs twice if both
-    /// discs of its pair do.
+    /// discs of its pair fit.
     std::vector<SizeNumber> fitting(const Proposals& proposals, const SyncDiscs& at,
                                     const Neighbours& neighbours) const {
         std::vector<SizeNumber> all;
@@ -318,8 +318,8 @@ std::vector<Rule> rules_of_swap() {
     };
 }
 
-/// Lists all radii, with which discs begin, on each rank. Limits their number, because numbers of
-/// radii have 32 bits.
+/// Lists the initial radii of all discs on each rank. Limits their number, because numbers of radii
+/// have 32 bits.
 void check_and_list_radii(const SceneDraft& draft) {
     constexpr std::uint64_t most = std::uint64_t{1} << 31;
     if (!swaps(draft.scene)) return;

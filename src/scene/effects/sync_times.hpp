@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sync times for effects that change little between syncs: by default they act in each step.
+// Sync times for effects that by default act at the end of each step.
 #pragma once
 
 #include <algorithm>

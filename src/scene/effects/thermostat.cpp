@@ -2,9 +2,9 @@
 // Thermostats: they act on velocities and spins at syncs, every `time.sync_every` micro-steps.
 //
 // After a time t between syncs, with independent normal numbers n of mean 0 and variance 1:
-//   kicks     v += xi sqrt(t) n, less the mean that keeps the total momentum. White noise of
+//   kicks     v += xi sqrt(t) n, less its mean, so that the total momentum is kept. White noise of
 //             strength xi^2 in the limit of short t (van Noije and Ernst, Granular Matter 1, 57
-//             (1998)). All discs have the same xi, whatever their mass. Spins are left alone.
+//             (1998)). All discs have the same xi, whatever their mass. Spins do not change.
 //   andersen  with the probability 1 - exp(-rate t) a disc gets new velocities from Maxwell's
 //             distribution (Andersen, J. Chem. Phys. 72, 2384 (1980)).
 //   langevin  v = c v + sqrt((1 - c^2) kT / m) n with c = exp(-rate t): the exact solution of
@@ -327,7 +327,7 @@ std::string summary_of_thermostat(const Effects& effects) {
     return {};
 }
 
-/// The typical speed. Noise brings discs at rest about to the speed that they gain in a flight of a
+/// The typical speed. Noise brings discs at rest to about the speed that they gain in a flight of a
 /// radius.
 double usual_speed_of_thermostat(const SceneParameters& scene) {
     const Thermostat& t = scene.effects.thermostat;
