@@ -33,8 +33,8 @@ enum class Invariant : int {
 
 /// Thrown on every rank with the same contents; exit code 70. `discs_around`, sorted by id, has the
 /// reported discs, their partners in collisions and the nearest discs, at the start of the failed
-/// step. It is empty if the reported disc does not exist. Spins of rough discs, per step, are in
-/// the same order, and so are present radii of discs that exchange radii.
+/// step. It is empty if the reported disc does not exist. `spins` (of rough discs, per step) and
+/// `radii` (of discs that exchange radii) have the order of `discs_around`.
 class CheckFailure : public CollectiveError {
 public:
     CheckFailure(const std::string& text, Invariant broken, std::int64_t at_step, DiscId reported,

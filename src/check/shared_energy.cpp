@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// Sets of numbers; any two sets can be joined. The lowest number of a set is its name.
+/// Sets of numbers; any two sets can be joined. A set is named by its lowest number.
 class Clusters {
 public:
     explicit Clusters(std::size_t n) : parent_(n) {

@@ -17,7 +17,7 @@ struct SharedEnergy {
     DiscId disc = 0;
     double before = 0, after = 0;
     double allowance = 0;
-    /// Number of reflections from fixed bodies, whose rounding is that of pair collisions
+    /// Number of reflections from fixed bodies; each is rounded like a collision of a pair
     double n_reflections = 0;
 };
 

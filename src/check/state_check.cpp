@@ -119,7 +119,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     record_speeds();
     const std::int64_t last_sync = micro_steps_done_ / scene_.sync_every * scene_.sync_every;
     for (std::size_t i = 0; i < known_.size(); ++i)
-        // A sync has changed these velocities or let the disc in; its straight flight began there.
+        // The disc's straight flight began at the sync that changed its velocity or returned it.
         if (were_rewritten() || (before_[i].disc.has_departed() && !known_[i].disc.has_departed()))
             known_[i].free_from = std::max(known_[i].free_from, last_sync);
     take_log(log);

@@ -6,23 +6,23 @@
 // with its earlier state although its owner changes. The log contains the collisions since then.
 //
 // In the time-stepped method an overlap is allowed if the pair was already closer than a diameter
-// when both discs became free to collide. A disc becomes free at the end of the last micro-step in
-// which it collided, or at the beginning of the check. From then on both discs have flown straight,
-// so discs that were apart would have collided before they overlap.
+// when both discs became free to collide. A disc becomes free after its last micro-step with a
+// collision, at a sync that changes its velocity, or at the beginning of the check. From then on it
+// has flown straight, so discs that were apart would have collided before they overlap.
 //
 // Effects are taken into account. Discs are compared in the box's coordinates. The check computes
-// how discs fall and slow down, lets discs of an ideal gas overlap, and knows how much energy
-// collisions lose. Growing discs push each other: the work is the impulse times the speed of the
-// surfaces. The energy from thermal and moving walls is unknown beforehand, so discs that met
-// such a wall have no energy check. Other walls give or take at most the impulse times their
-// largest speed. An acceleration that varies in time is treated in a frame that falls with its
-// varying part since the last inspection: in this frame it has no effect, but walls move. Discs
-// that have departed through open sides stay in the record. The log has each departure as a
-// collision with a wall without impulse. So departures and returns by inlets determine whether a
-// disc is in the box. The energy that departing and returning discs carry is unknown, so in such
-// a step neither their energy nor the total energy is checked. Energies include masses and spins.
-// Cost: 128 bytes a disc; in each step every disc and collision is sent once, and collisions to
-// rank 0.
+// how discs fall and slow down, lets discs of an ideal gas overlap, and lets inelastic collisions
+// lose energy. Growing discs push each other: the work is the impulse times the speed of the
+// surfaces. The energy from thermal and moving walls is unknown beforehand, so discs that met such
+// a wall have no energy check. Other walls give or take at most the impulse times their largest
+// speed. An acceleration that varies in time is treated in a frame that falls with its varying part
+// since the last inspection: in this frame it has no effect, but walls move. Discs that have
+// departed through open sides stay in the record. The log has each departure as a collision with a
+// wall without impulse. So departures and returns by inlets determine whether a disc is in the box.
+// The energy that departing and returning discs carry is unknown, so in such a step neither their
+// energy nor the total energy is checked. Energies include masses and spins. Cost: 256 bytes a
+// disc; in each step every disc and collision is sent once, and collisions with their discs to rank
+// 0.
 #pragma once
 
 #include <array>
@@ -76,7 +76,7 @@ private:
     struct Known {
         DiscState disc;
         double spin = 0;
-        /// End of the last micro-step with a collision, or start of the check
+        /// Number of the micro-step from which on the disc has flown straight
         std::int64_t free_from = 0;
         std::uint64_t walls = 0, pairs = 0; ///< collisions of the disc since the last inspection
         std::uint64_t departures = 0;       ///< departures, which are included in `walls`
@@ -146,7 +146,7 @@ private:
     double work_of_walls(const Known& known) const;
     double work_of_walls() const;
     Extent walls_before() const;
-    /// The fraction of the energy that drag has left since the last check; the time since then.
+    /// The fraction of the energy that drag has left since the last check; the micro-steps since.
     double energy_left() const;
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
     double n_syncs_since(std::int64_t micro_step) const {
@@ -174,7 +174,7 @@ private:
     /// Motion since the last inspection due to an acceleration that changes in time
     std::array<Swayed, 2> swayed_{};
     double total_mass_ = 0, smallest_mass_ = 1;
-    /// Largest speed of walls that swing, and their largest acceleration towards a disc
+    /// Largest speed of vibrating walls, and their largest acceleration towards a disc
     double wall_speed_ = 0, wall_pull_ = 0;
     double work_of_images_ = 0; ///< work of images on this rank since the last inspection
     /// Largest speed along y of the discs between sheared sides, now or at the last inspection
@@ -196,7 +196,7 @@ private:
     std::vector<Known> known_, before_;
     std::int64_t micro_steps_done_ = 0, micro_steps_before_ = 0;
     double tolerance_ = 0, fastest_ = 0,
-           energy_ = 0; ///< energy of all discs, which limits the speed of plain discs
+           energy_ = 0; ///< energy that all discs should have, in the scene's units
     /// Collisions of pairs on all ranks since the check began
     std::uint64_t n_pair_collisions_ = 0;
 };

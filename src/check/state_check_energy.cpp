@@ -140,7 +140,7 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
             allowed / scale};
 }
 
-/// Whether any disc has departed or come in since the last inspection. **Collective.**
+/// Whether any disc has departed or returned since the last inspection. **Collective.**
 bool StateCheck::have_any_moved() const {
     bool is_any = false;
     for (std::size_t i = 0; i < known_.size(); ++i)
@@ -214,8 +214,8 @@ double StateCheck::largest_energy_of_place() const {
     return sum;
 }
 
-/// The energy of a mass of 1 with the velocity by which images beyond the seam of sheared sides
-/// move. Crossings of the seam are rounded like it, however slow discs are.
+/// The energy of a mass of 1 at the speed of images beyond the seam of sheared sides. Rounding
+/// errors of crossings are relative to this energy, however slow discs are.
 double StateCheck::energy_of_flow() const {
     const double speed = effects_.are_sheared() ? scene_.effects.shear * scene_.box.y : 0;
     return speed * speed / 2;
@@ -229,8 +229,8 @@ double StateCheck::other_energy(const DiscState& seen, double spin) const {
     return sum;
 }
 
-/// Potential energies are measured from a low level, because their rounding errors are then
-/// small.
+/// Adds a constant to the potential energy, so that bounds relative to the result also allow for
+/// rounding errors of the potential energy.
 double StateCheck::twice_energy(const DiscState& seen, double spin) const {
     const double mass = mass_of(seen.id);
     return mass * squared_speed_of(seen) +
@@ -266,7 +266,7 @@ double StateCheck::energy_of_way(std::size_t i) const {
            work_on_way(effects_, {unwrapped.x - then.x, unwrapped.y - then.y, species_.of(now.id)});
 }
 
-/// Energy for discs that rest on a wall, which leave it with ContactGuard::least_departure.
+/// Twice the energy that contacts at rest may add, at the speed ContactGuard::least_departure.
 double StateCheck::resting_gain(const Known& known) const {
     const Acceleration g = effects_.acceleration();
     const double pull = std::max(g.largest_x(), g.largest_y());
@@ -276,10 +276,10 @@ double StateCheck::resting_gain(const Known& known) const {
     return 1.01 * body.mass * leaving * leaving * static_cast<double>(known.walls);
 }
 
-/// The largest energy that vibrating walls have given to or taken from a disc. A disc that
-/// arrives with v and leaves with v' gains m (v' - v) (v' + v) / 2. Relative to the wall it
-/// gets no faster, so the gain is at most impulse times wall speed. resting_gain has the
-/// rest.
+/// The largest energy that vibrating walls have given to or taken from a disc. A disc that arrives
+/// with v and leaves with v' gains m (v' - v) (v' + v) / 2. Relative to the wall it gets no faster,
+/// so the gain is at most impulse times wall speed. For discs that rest on a wall resting_gain is
+/// added.
 double StateCheck::work_of_walls(const Known& known) const {
     return 1.01 * speed_of_walls() * known.wall_impulse / static_cast<double>(scene_.micro_steps);
 }

@@ -35,7 +35,7 @@ struct alignas(64) DiscState {
     std::uint64_t is_departed : 1 = 0; ///< set by depart()
     std::int64_t image_x : 16 = 0;     ///< image's displacement in box lengths (image.hpp)
     std::uint64_t pair_collisions : 47 = 0;
-    /// Whether it has collided since the last sync; used only if collisions may lose energy
+    /// Whether the disc has collided since the last sync; used only if collisions may lose energy
     std::uint64_t has_collided : 1 = 0;
     std::int64_t image_y : 16 = 0;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kinds of failure, by the ranks that know of them (docs/understanding/architecture.md):
-// 1. a wrong input, which all ranks find; 2. a failed operation of all ranks, on whose
-// failure all ranks agree; 3. a broken invariant. The first two are exceptions of the public
-// API.
+// The kinds of failure, by the ranks that detect them (docs/understanding/architecture.md): 1. a
+// wrong input, which all ranks find; 2. a failed operation of all ranks, which all ranks report
+// together; 3. a broken invariant, which one rank may find alone. The first two are exceptions of
+// the public API.
 #pragma once
 
 #include <string_view>

@@ -2,7 +2,7 @@
 // Sums doubles in 128-bit fixed point, so that the order of the terms does not matter.
 //
 // The unit follows from a bound on the total, so that the sum cannot overflow and each term is
-// wrong by at most 2^-125 of the bound. Addition of integers is associative, so any division among
+// wrong by at most 2^-124 of the bound. Addition of integers is associative, so any division among
 // threads and ranks gives the same bits.
 #pragma once
 
@@ -40,7 +40,7 @@ public:
     void add_words(std::uint64_t low, std::uint64_t high);
 
 private:
-    __extension__ typedef __int128 Wide; // NOLINT: nvcc takes the extension of no other form
+    __extension__ typedef __int128 Wide; // NOLINT: nvcc accepts the extension in this form only
 
     void add_large(double term);
 

@@ -4,8 +4,8 @@
 // Between collisions a stored velocity v is constant, and the velocity in the box follows from v by
 // the laws of falling and drag (core/frame.hpp). So the integral since the last sync is a known
 // function of v and time: weight (v + shift)_a (v + shift)_b + rest_a rest_b, and an additional
-// more_y^2 for yy if the acceleration turns. If syncs change no velocities, the integral may extend
-// over many syncs.
+// more_y^2 for yy if the acceleration changes its direction. If syncs change no velocities, the
+// integral may extend over many syncs.
 //
 // For a path with collisions the integral is a sum over events. A collision at time t that changes
 // v into v' adds the integral up to t for v and subtracts that integral for v'. When the integral

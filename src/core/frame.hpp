@@ -5,7 +5,7 @@
 // times are stored on a clock that slows down as the discs do. In this frame discs fly straight at
 // constant speed, so contacts of pairs need neither falling nor drag. In a periodic box stored
 // positions may leave the box, and the disc's image is in the box. Without these effects the frame
-// is that of the box, and nothing is computed.
+// is at rest in the box, and states are not converted.
 #pragma once
 
 #include "core/disc_state.hpp"

@@ -4,10 +4,10 @@
 //
 // Stored states are never shifted: between syncs a disc may fly out of the box. Engines use the
 // state together with its image, the numbers of boxes by which the disc is displaced along x and y.
-// Entries of the same disc differ only in the image. The contact of a pair depends on the
-// difference of the two images, two whole numbers that are equal on every rank that has the pair.
-// The image is stored in the cache line of the state, so that it moves with the disc. Only engines
-// use images; without periodic sides there are none.
+// A rank may have several copies of a disc, which differ only in the image. The contact of a pair
+// depends on the difference of the two images, two whole numbers that are equal on every rank that
+// has the pair. The image is stored in the cache line of the state, so that it moves with the disc.
+// Only engines use images; without periodic sides there are none.
 //
 // Usually all boxes are at rest, and an image is shifted by a whole number of box lengths. Under
 // shear (Lees and Edwards, J. Phys. C 5, 1921 (1972)) the row of boxes above moves along x with a
@@ -105,7 +105,7 @@ struct Periods {
     /// The shorter period; 0 if there is none.
     double shortest() const { return x == 0 || y == 0 ? std::max(x, y) : std::min(x, y); }
     CARROM_DEVICE double along(Axis axis) const { return carrom::along(axis, x, y); }
-    /// The shift of the row above the box.
+    /// The shift along x, at `time`, of the row of boxes above the box.
     CARROM_DEVICE double offset_at(double time) const { return offset + speed * time; }
 
     /// Sets time 0 to micro-step `n` of the scene. The offset is exact except for one rounding,

@@ -14,7 +14,7 @@
 
 namespace carrom {
 
-/// What random numbers are used for. Never change a value, because a seed must always give the same
+/// The uses of random numbers. Never change a value, because a seed must always give the same
 /// discs.
 enum class Purpose : std::uint64_t {
     position = 1,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers of discs that are stored outside of the 64-byte states, if a run's dynamics need them.
 //
-// Engines send, sort and roll back all columns that a run has, whatever these mean. Scenes,
+// Engines send, sort and roll back all columns that a run has, whatever they mean. Scenes,
 // checkpoints, restarts and recordings use the table below. A new column needs a name and a line in
 // the table. If effects need the column, add a line to the function `side_columns_of` of
 // dynamics/effects.hpp; if collisions change it, add a line to the last function of this file. A
@@ -26,7 +26,7 @@ struct SideColumnInfo {
     const char* name;  ///< name in checkpoints, and in scenes that give initial values
     const char* shown; ///< the column's name in recordings, tables and the fields of a trajectory
     bool is_rate;      ///< whether it is a rate, stored per micro-step
-    /// Whether effects decide which runs have it; else a run has it if initial values are given
+    /// Whether effects decide which runs have the column; else only given initial values do
     bool is_of_dynamics;
     bool is_given;     ///< whether scenes may give initial values; such columns come first
     const char* needs; ///< error message if initial values are given in a run without this column
@@ -100,7 +100,7 @@ public:
 
     const SideColumnSet& present() const { return present_; }
     bool has(SideColumn column) const { return present_.has(column); }
-    /// Adds a column. Without `values` all its numbers are 0.
+    /// Adds a column. Without `values` it is empty, and `resize` then fills it with zeros.
     void add(SideColumn column, std::vector<double> values = {}) {
         present_.add(column);
         (*this)[column] = std::move(values);

@@ -17,11 +17,11 @@ struct FirstPlace {
     /// Box lengths by which periodic sides have shifted the disc since the start
     double lengths_x = 0, lengths_y = 0;
     double vx = 0, vy = 0; ///< velocity per step at that start
-    /// Box lengths by which periodic sides shifted the disc before, since the scene's start
+    /// Box lengths by which periodic sides have shifted the disc since the scene's start
     double image_x = 0, image_y = 0;
 };
 
-/// How many box lengths a disc has crossed periodic sides by, since the scene's start.
+/// Number of box lengths by which periodic sides have shifted a disc since counting began.
 struct DiscImage {
     DiscId id = 0;
     std::int32_t x = 0, y = 0;

@@ -29,8 +29,8 @@ struct Domain {
     bool holds(double place, double place_across) const {
         return along.holds(place) && across.holds(place_across);
     }
-    /// Whether the domain is not empty and has a point that differs by at most `reach`, along each
-    /// axis, from the given position.
+    /// Whether the domain, which must not be empty, has a point that differs from the given
+    /// position by at most `reach` along each axis.
     bool is_within(double reach, double place, double place_across) const {
         return along.meets(place - reach, place + reach) &&
                across.meets(place_across - reach, place_across + reach);
@@ -103,7 +103,7 @@ struct GroupNeeds {
 /// The number of ranks in each strip; these numbers differ by at most one. Groups are used only if
 /// they make the halos sufficiently smaller, because domains have more neighbours than strips.
 std::vector<int> choose_groups(const GroupNeeds& needs);
-/// Divides the ranks into groups of `n_across` ranks, or one rank less.
+/// Divides the ranks into groups of at most `n_across` ranks, whose sizes differ by at most one.
 std::vector<int> groups_of(int n_ranks, int n_across);
 
 /// For each cut, the share of the work below the cut. The work of strips is assumed to be

@@ -53,7 +53,7 @@ bool are_near(const Domains& a, int rank_a, const Domains& b, int rank_b, double
     const double period = periods.along(a.axis()),
                  period_across = periods.along(other_axis(a.axis()));
     const Domain from = domain_in_box(a, rank_a, periods), to = domain_in_box(b, rank_b, periods);
-    // If rows of boxes slide, any two positions along x may come to lie above each other.
+    // If rows of boxes slide, any position along x may come to lie above any other.
     if (periods.are_moving() && are_near_images(from.along, to.along, distance, period, true))
         return true;
     return are_near_images(from.along, to.along, distance, period, false) &&

@@ -128,7 +128,7 @@ void StripDiscs::set_departed_aside() {
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
 
-/// Each disc goes to its owner in the domains of the last migration, where the next one begins.
+/// Each disc goes to its owner in the last migration's domains, from which the next one starts.
 void StripDiscs::take_back(std::span<const ReturningDisc> discs) {
     if (discs.empty()) return;
     forget_halo();
@@ -258,7 +258,7 @@ void StripDiscs::fetch_halo(double time, double reach, DiscStates* companion) {
     }
     columns_.for_each([&](SideColumn column) { show(columns_[column]); });
     for (std::size_t& offset : halo_offsets_) offset += n_own_;
-    // With the capacity of `discs_`, both lists are reallocated equally rarely
+    // Reserved like `discs_`, so that both lists are reallocated equally rarely
     is_shown_.reserve(discs_.capacity());
     is_shown_.resize(n_own_, 0);
     for (const std::vector<LocalIndex>& shown : halo_plan_.leaving) {

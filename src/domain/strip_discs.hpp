@@ -49,10 +49,10 @@ struct ReturningDisc {
 
 class StripDiscs {
 public:
-    /// Takes discs in any distribution and gives them to the owners of domains of equal area. In a
-    /// periodic box, migration gives own discs their images in the box, and the halo may contain
-    /// images of own discs. `columns` have the order of the discs; missing numbers are 0.
-    /// **Collective.**
+    /// Takes discs in any distribution and gives them to the owners of domains of equal area, or of
+    /// equal numbers of discs if these are clustered. In a periodic box, migration gives own discs
+    /// their images in the box, and the halo may contain images of own discs. `columns` have the
+    /// order of the discs; missing numbers are 0. **Collective.**
     StripDiscs(const Communicator& communicator, const Box& box, DiscStates discs,
                const Periods& periods, SideColumns columns, int n_threads,
                const GroupChoice& choice);
@@ -62,8 +62,8 @@ public:
     /// second state of each own disc, in the same order, or is null. **Collective.**
     void migrate(double time, double farthest, DiscStates* companion);
 
-    /// Sorts the own discs, and all arrays with one element a disc, by cells at `anchor`
-    /// (CellGrid::sort); the grid then has no halo. `companion`: see migrate.
+    /// Sorts the own discs, and all arrays with one element a disc, by their cells at the time
+    /// `anchor` (CellGrid::sort); the grid then has no halo. `companion`: see migrate.
     void sort(const GridGeometry& geometry, double anchor, double time, double duration,
               DiscStates* companion);
     /// Sorts the own discs into cells without storing flights.
@@ -98,9 +98,9 @@ public:
     /// have reported to `reported`. **Collective.**
     void report_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
 
-    /// Moves the cuts so that all domains have equal work, if the largest `work` of a rank since
-    /// the last inspection exceeds the mean by more than the factor `above`. Discs count at their
-    /// positions at `time`; the next migration sends them. **Collective.**
+    /// Moves the cuts so that all domains have equal work, if the largest `work` of a rank exceeds
+    /// the mean by more than the factor `above`. Discs count at their positions at `time`; the next
+    /// migration sends them to their new owners. **Collective.**
     void rebalance(double time, double above, const RankWork& work);
 
     Population population() const { return {discs_, n_own_}; }
@@ -122,7 +122,7 @@ public:
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< number of discs on all ranks
     const Domains& domains() const { return domains_; }
-    /// The other ranks that had own discs of this rank in their halo when it was fetched.
+    /// The other ranks that may have own discs of this rank in the halo that they fetched last.
     std::span<const int> neighbours() const {
         return periods_.are_any() ? other_partners_ : halo_plan_.partners;
     }
@@ -145,11 +145,11 @@ public:
     /// The box limits the region only along axes that are not periodic.
     Extent extent_seen(const Extent& box, double reach) const;
 
-    /// Moves discs that have departed from the own discs to `departed()` for good, and drops the
-    /// halo. **Collective.**
+    /// Moves departed discs from the own discs to `departed()`, where they stay until take_back,
+    /// and drops the halo. **Collective.**
     void set_departed_aside();
-    /// Returns departed discs, given equally on all ranks, into the box, and drops the halo. The
-    /// rank whose domain contains the disc's position becomes its owner.
+    /// Puts returning discs into the box, and drops the halo. All ranks must pass the same list;
+    /// the rank whose domain contains a disc's position becomes its owner.
     void take_back(std::span<const ReturningDisc> discs);
     std::span<const DiscState> departed() const { return departed_; }
     /// Side columns of the departed discs, in the order of `departed()`

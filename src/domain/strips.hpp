@@ -34,7 +34,7 @@ public:
     /// One strip that covers everything.
     Strips() = default;
 
-    /// `cuts`: ascending and finite; their number is that of the strips minus one.
+    /// `cuts`: ascending and finite, one cut fewer than strips.
     explicit Strips(std::vector<double> cuts, Axis axis = Axis::x);
 
     Axis axis() const { return axis_; }

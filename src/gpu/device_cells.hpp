@@ -81,8 +81,8 @@ struct DeviceCells {
     }
 };
 
-/// Cells for n discs whose partners are within `reach`. A cell is at least `reach` wide. If this
-/// permits, it has 0.4 discs on average, because small cells save tests of pairs.
+/// Cells for n discs whose partners are within `reach`. Cells are at least `reach` wide and hold at
+/// least 0.4 discs on average; they are this small to save tests of pairs.
 inline DeviceCells cells_for(const Box& box, const Periods& periods, double reach,
                              std::uint64_t n_discs) {
     constexpr double discs_in_cell = 0.4;

@@ -27,7 +27,7 @@ public:
 
     CARROM_DEVICE static constexpr bool has_fixed_bodies() { return false; }
     CARROM_DEVICE const MirrorSides<Arithmetic>& sides() const { return sides_; }
-    /// Whether the disc may meet a wall in a micro-step that ends by `time`; false is certain. A
+    /// Whether the disc may meet a wall in a micro-step that ends by `time`; if false, it cannot. A
     /// disc that ends a micro-step within the band of a wall at rest also meets the wall.
     CARROM_DEVICE bool may_meet_wall(const DiscState& disc, double time) const {
         if (!this->space_.has_sides()) return false;

@@ -91,8 +91,8 @@ private:
         return counters;
     }
 
-    /// Starts the kernels without waiting for them, because the host does not need the last
-    /// window's results yet.
+    /// Passes the window's data to the kernels and starts the reset of the counters, without
+    /// waiting for the device.
     void begin(const DeviceWindow& window, bool forgets_speed) {
         world_.window = window.window;
         world_.squared_window_speed = window.speed * window.speed;

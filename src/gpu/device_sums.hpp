@@ -82,7 +82,7 @@ struct DeviceTerms {
 
 /// Adds the sums of all stripes to `sums`.
 inline void add_stripes(std::span<const StressPieces> stripes, StressSums& sums) {
-    __extension__ typedef __int128 Wide; // NOLINT: nvcc takes the extension of no other form
+    __extension__ typedef __int128 Wide; // NOLINT: nvcc accepts the extension in this form only
     const auto add = [&](ExactSum& sum, SumPieces StressPieces::* pieces) {
         Wide total = 0;
         for (const StressPieces& stripe : stripes)

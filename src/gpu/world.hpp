@@ -49,7 +49,7 @@ struct DeviceCounters {
     std::uint32_t n_micro = 0; ///< completed micro-steps of the window
     /// Numbers of candidates found and carried out since the run began
     std::uint64_t n_candidates = 0, n_kept = 0;
-    Largest squared_speed; ///< since the last sync, or over all discs
+    Largest squared_speed; ///< over all discs at the last sync and all collisions since
 };
 
 /// All data of a window's kernels. Arrays before `active` are indexed by slot.
@@ -159,7 +159,7 @@ template <class D> struct World {
             if (event.partner != no_partner) visit(event);
         });
     }
-    /// Disc k's first candidate from micro-step `from` on; `passes_taken`: without taken discs.
+    /// Disc k's first candidate from micro-step `from` on; `passes_taken` skips taken discs.
     CARROM_DEVICE NextEvent first_event(LocalIndex k, int from, bool passes_taken) const {
         NextEvent first = bounce(discs[k], from);
         for_each_meeting(k, from, [&](const NextEvent& event) {

@@ -19,7 +19,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double spread_margin = 1000;
 /// The same factor for a single step that begins from known numbers.
 constexpr double step_margin = 20;
-/// Number of runs that vary the last digits of the student's numbers; other runs vary last bits.
+/// Number of runs from the student's numbers; all but the first vary the last digits.
 constexpr std::uint64_t own_runs = 6;
 /// In radii: if differences are this large, roundings may decide which discs collide.
 constexpr double deciding = 0.1;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compares a student's lines with the rule, step by step, on one rank.
+// Compares a student's lines with the rule (rule.hpp, docs/classroom.md), step by step on one rank.
 //
 // At first lines are compared with the program's own run. Each disc may differ by the tolerance
 // plus the present size of roundings. Once roundings are as large as discs, two correct programs
-// differ. Then each step is compared with the rule applied to the student's own step before. A step
-// that is missing or unreadable is counted, and later steps are still graded. Memory: N lines.
-// Time, in the second part: a step of the plain rule for each step.
+// differ. Then each step is compared with the rule applied to the student's own step before. If
+// points are counted, grading continues after a step that is missing or unreadable. Memory: N
+// lines. Time, in the second part: a step of the plain rule for each step.
 #pragma once
 
 #include <algorithm>
@@ -93,7 +93,7 @@ private:
     std::optional<SharedState> own_before_; ///< discs of that step from the student's lines
     std::int64_t written_before_ = 0;
     double unit_of_float_ = 0; ///< nonzero if the student's numbers are in single precision
-    std::vector<double> digits_before_; ///< StudentLine::last_digit
+    std::vector<double> digits_before_; ///< StudentLine::last_digit in the step before, by id
     /// The finest last digit of all lines, in this step and in the step before
     double finest_ = 0, finest_before_ = 0;
     std::vector<bool> is_counter_unknown_;

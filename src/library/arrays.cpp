@@ -38,7 +38,7 @@ template <class Put>
 }
 
 /// Calls `put(id, x, y)` for each disc of this rank with its position in the box, on all threads.
-/// For a disc that may have left the box since the last sync, a second call has the right position.
+/// Calls it again with the right position for a disc that may have left the box or has departed.
 template <class Put> void for_each_place(const Run& run, const Put& put) {
     const DiscSystem& system = run.system();
     const std::span<const DiscState> discs = system.discs();

@@ -24,7 +24,7 @@ namespace carrom {
 namespace {
 
 constexpr const char* call_name = "change_discs";
-constexpr std::size_t most_named = 5; ///< problems of discs that a message lists for each rank
+constexpr std::size_t most_named = 5; ///< most problems of discs that a message lists for each rank
 
 /// The region in which discs' centres may be at the present step.
 class Room {
@@ -77,7 +77,7 @@ struct Change {
     bool is_on() const { return of_place || of_velocity || of_spin; }
 };
 
-/// The disc in the coordinates of the computation. Unchanged coordinates keep all bits.
+/// The disc with positions from the box's lower left corner. Unchanged positions keep all bits.
 Disc counted_from_corner(Disc disc, const DiscState& shown, const Origin& origin) {
     disc.x = disc.x == shown.x - origin.x ? shown.x : disc.x + origin.x;
     disc.y = disc.y == shown.y - origin.y ? shown.y : disc.y + origin.y;
@@ -98,7 +98,7 @@ void apply(const Disc& disc, const Change& change, const DiscState& shown, const
     stored.y = change.of_place ? disc.y - frame.y : y;
     stored.tau = time;
     if (!change.of_velocity) return;
-    if (frame.periods.are_moving()) { // the box may show an image with another velocity
+    if (frame.periods.are_moving()) { // the image in the box may have another velocity
         stored.vx += (disc.vx / unit - shown.vx) / frame.slowing;
         stored.vy += (disc.vy / unit - shown.vy) / frame.slowing;
     } else {

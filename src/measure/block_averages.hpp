@@ -5,9 +5,9 @@
 // A block is a number of steps. When there are `most_blocks`, every two of them are joined, and
 // later blocks are twice as long. The discs are sampled at fixed steps, which do not depend on
 // syncs. Between two samples the integrals of stress and energy are exact (engine/stress_sums.hpp),
-// and so are counts of collisions. Mean speed and kurtosis are assumed to change linearly. Samples
-// are 64 micro-steps apart in long runs, and closer if a run is too short for an error or if its
-// energy changes. Price of a sample: two passes over the discs, some five nanoseconds a disc.
+// and so are counts of collisions. Mean speed and kurtosis are assumed to change linearly. In long
+// runs samples are 64 micro-steps or a sync interval apart, whichever is longer; short runs and
+// changing energies need closer ones. Price of a sample: two passes over the discs, 5 ns a disc.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,7 @@ public:
     Averages averages() const;
 
 private:
-    /// Integrals over time.
+    /// Counts of collisions, and integrals over time in steps.
     struct Block {
         double walls = 0, pairs = 0, speed = 0, kurtosis = 0;
         MotionIntegrals motion;

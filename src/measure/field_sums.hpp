@@ -181,7 +181,7 @@ private:
     std::array<double, n_disc_moments> scales_{}; ///< scales of the sums over discs
     /// Scales of the sums over collisions, with the factors of -1 and 1/2 that their terms have.
     Pair normal_scales_{}, shear_scales_{}, flow_scales_{};
-    double usual_square_ = 0; ///< the terms of a disc with a lower squared speed have 62 bits
+    double usual_square_ = 0; ///< the terms of slower discs of a usual mass have at most 62 bits
     std::vector<std::uint64_t> counts_;
     std::vector<ExactSum> sums_;     ///< the sums without the terms in `gathered_`
     std::vector<Gathered> gathered_; ///< gathered terms of each cell

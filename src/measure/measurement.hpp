@@ -101,7 +101,7 @@ public:
     virtual void store_discs(StoredSamples& /*stored*/) {}
     virtual void restore_discs(const StoredSamples& /*stored*/) {}
 
-    /// Tables of the samples so far, at least one. All ranks get the same.
+    /// Tables of the samples so far, of which there is at least one. All ranks get the same.
     virtual std::vector<MeasuredTable> tables() const = 0;
     /// A table that grows by a row at each sample, from row `first` on. Its file grows as the run
     /// goes on, so the bytes of earlier rows never change.

@@ -21,7 +21,7 @@
 
 namespace carrom {
 
-/// An action between steps that samples what is due.
+/// An action between steps that takes all samples that are due.
 class Sampler : public StepAction {
 public:
     /// Samples from the present step on, or from the scene's `from_step`. All arguments must
@@ -46,7 +46,7 @@ public:
         return true;
     }
 
-    /// Averages since the run's start, or since `average_anew`. **Collective.**
+    /// Averages since the scene's `averages_from`, or since `average_anew`. **Collective.**
     Averages averages() const { return averages_.averages(); }
     /// Starts all averages anew, for example when a gas has come to equilibrium. **Collective.**
     void average_anew() { averages_.begin(); }

@@ -10,12 +10,12 @@ namespace carrom {
 /// An estimate of the speed that discs gain by falling or by being pushed.
 double driven_speed(const SceneParameters& scene);
 
-/// The root mean square of a velocity component, or driven_speed if all discs are at rest.
+/// The root mean square of a velocity component; if that is 0, driven_speed; if both are 0, 1.
 /// **Collective.**
 double usual_speed(const MeasuredRun& run);
 
-/// The velocity that a fall adds in half the time between two syncs, if contacts last; otherwise
-/// 0. Discs at rest hop from sync to sync, so their velocity half way between syncs is their mean
+/// The velocity that a fall adds until the middle of the present sync interval, if contacts last;
+/// otherwise 0. Discs at rest hop from sync to sync, so their velocity in the middle is their mean
 /// velocity.
 struct VelocityChange {
     double x = 0, y = 0;

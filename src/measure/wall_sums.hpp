@@ -79,7 +79,7 @@ protected:
     std::vector<double> given_; ///< impulse or energy of the four sides in each interval
 };
 
-/// The length of a side at a step, or its mean between walls that swing.
+/// The length of a side at a step; between vibrating walls its mean length.
 double length_of_side(const SceneParameters& scene, std::size_t side, double step);
 
 /// A row for each interval between samples: its first and last step, then for each side the given

@@ -4,9 +4,9 @@
 //
 // Values are sent as bytes, so they must be trivially copyable; all ranks run the same program.
 // Data of any size is split into messages below MPI's limit of 2^31 bytes. Copies of a Communicator
-// share one MPI communicator. It is a duplicate of the world's, so its messages never mix with
-// those of another owner. Every reduction gives all ranks the same bits for any number of ranks,
-// because floating-point sums are exact.
+// share one MPI communicator. It is a duplicate, so its messages never mix with those of other
+// parts of the program. Every reduction gives all ranks the same bits for any number of ranks,
+// because sums of floating-point numbers are exact.
 #pragma once
 
 #include <concepts>

@@ -2,8 +2,8 @@
 // The implementation of a Communicator, and sending of data of any size in messages of limited
 // size.
 //
-// Every byte that goes from one rank to another goes through `start_send`, so it is split and
-// counted in one place.
+// `start_send` splits data of any size and counts its messages. exchange.cpp,
+// neighbour_exchange.cpp and meeting.cpp also send single messages themselves.
 #pragma once
 
 #include <algorithm>

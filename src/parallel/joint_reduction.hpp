@@ -18,7 +18,7 @@ template <class Counts> struct JointReduction {
     double largest = 0; ///< a number that is not NaN; -0 may become +0
 };
 
-/// The contents of a message; counts that a reduction does not have are 0.
+/// The contents of a message; unused counts are 0.
 struct JointWords {
     std::array<std::uint64_t, 8> counts{};
     double largest = 0;

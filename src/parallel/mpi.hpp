@@ -15,9 +15,9 @@ namespace carrom {
 /// and MPI do if they have too little memory. A program calls it before it makes `Mpi`.
 void guard_exit();
 
-/// Starts MPI and ends it. Only the thread that made it may call MPI (MPI_THREAD_FUNNELED,
-/// checked). From then on an MPI error or a failed `ensure` prints rank and text and aborts all
-/// ranks; if memory runs out on any thread, the code is 3. One per program.
+/// Starts MPI and ends it. Only the thread that made it may call MPI; a library without
+/// MPI_THREAD_FUNNELED is an error. From then on an MPI error or a failed `ensure` prints rank and
+/// text and aborts all ranks; if memory runs out on any thread, the code is 3. One per program.
 class Mpi {
 public:
     enum class Start {
@@ -49,12 +49,12 @@ std::string mpi_version();
 /// program. If MPI does not end within ten seconds, this process ends itself with `code`.
 [[noreturn]] void abort_from_signal(std::string_view text, int code);
 
-/// Runs `body` on every rank and turns exceptions into an exit code: the program's only try and
-/// catch. After an InputError rank 0 prints each problem on a line of standard error; the code is
-/// 2. After a CollectiveError rank 0 prints it; the code is the error's. After any other exception
-/// the rank prints its number and the text, and aborts all ranks. All ranks return the largest
-/// code. If other ranks do not reach the same end within `patience_seconds`, a CollectiveError
-/// aborts them with its code, an InputError with 70. **Collective.**
+/// Runs `body` on every rank and turns exceptions into the exit code of the program. After an
+/// InputError rank 0 prints each problem on a line of standard error; the code is 2. After a
+/// CollectiveError rank 0 prints it; the code is the error's. After any other exception the rank
+/// prints its number and the text, and aborts all ranks. All ranks return the largest code. If
+/// other ranks do not reach the same end within `patience_seconds`, a CollectiveError aborts them
+/// with its code, an InputError with 70. **Collective.**
 int run_on_all(const Communicator& communicator,
                const std::function<int(const Communicator&)>& body, double patience_seconds = 30);
 

@@ -21,7 +21,7 @@
 
 namespace carrom {
 
-/// Keeps its buffers from one exchange to the next, and has tags of its own, because a rank may be
+/// Keeps its buffers from one exchange to the next, and has a tag of its own, because a rank may be
 /// in the next exchange already while its neighbour is still in this one.
 class NeighbourExchange {
 public:

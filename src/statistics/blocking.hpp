@@ -71,8 +71,8 @@ public:
     /// All data as words, for a checkpoint. The words do not depend on ranks or threads if the
     /// samples do not.
     std::vector<std::int64_t> words() const;
-    /// Restores the data from `words()`. Returns false, and changes nothing, if the number of words
-    /// is wrong.
+    /// Restores the data from `words()`. Returns false, and changes nothing, if the words are
+    /// incomplete or belong to another number of values.
     bool set_words(std::span<const std::int64_t> words);
 
 private:

@@ -179,9 +179,9 @@ double per_freedom(Drift kind, double n_discs, const AveragedSystem& system) {
 
 } // namespace
 
-/// Two numbers are approximate: the distribution of the kinetic energy over the axes, and a drift
-/// that changes between samples. Both have only the weight 1 / N, and only along an axis where the
-/// drift is not part of the temperature.
+/// Two numbers of integrals_between are approximate: the distribution of the kinetic energy over
+/// the axes, and a drift that changes between samples. Both have only the weight 1 / N, and only
+/// along an axis where the drift is not part of the temperature.
 namespace {
 
 /// The difference of a sum of squares along an axis and `taken`; `all` is the sum along both

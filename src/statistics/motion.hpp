@@ -31,8 +31,8 @@ struct Tensor {
     }
 };
 
-/// Sums over all discs at one time; speeds count only discs in the box. Speeds are in
-/// units of `speed_unit`, a power of two, per micro-step.
+/// Sums over all discs at one time; sums and means of speeds are over the discs in the box. Speeds
+/// are in units of `speed_unit`, a power of two, per micro-step.
 struct MotionSample {
     std::uint64_t wall_collisions = 0,
                   /// Collisions since the scene's start; a collision of a pair counts once

@@ -16,11 +16,11 @@ struct WaveVector {
     int n = 0, m = 0;
 };
 
-/// The length of k.
+/// The length of the wave vector.
 double wavenumber(const WaveVector& vector, double lx, double ly);
 
-/// The wave vectors up to a length, in ascending order of n from 0, then of m. Of two opposite
-/// vectors only one is listed.
+/// The wave vectors up to `largest_wavenumber`, in ascending order of n from 0, then of m. Of two
+/// opposite vectors only one is listed.
 std::vector<WaveVector> wave_vectors(double lx, double ly, double largest_wavenumber);
 
 /// The modes of a rank's discs, in fixed point.

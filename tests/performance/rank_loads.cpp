@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How evenly ranks share a scene, and how much of what they see is halo, counted and not timed. The
+// How evenly ranks share a scene, and how much of their discs is halo, counted and not timed. The
 // event-driven method runs on all ranks of MPI, with strips and with groups of ranks that cut them
 // across.
 //
@@ -9,7 +9,7 @@
 // box. In scene 2 half of it is there, and the other half is spread over the rest. ACROSS is the
 // number of ranks that share a strip. Cuts move after each of the first twelve intervals between
 // syncs; the next four are counted. The work of a rank is the collisions that its blocks carry out
-// plus 0.14 for each disc that they see, halos included. One row for each scene: discs of the halo
+// plus 0.14 for each disc in them, halos included. One row for each scene: discs of the halo
 // over own discs, and neighbours, as means over ranks and windows; the work of first runs on the
 // busiest rank over the mean, for the four intervals together and as the mean of windows; and the
 // work of repeated runs of blocks over that of first runs.

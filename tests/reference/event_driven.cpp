@@ -172,7 +172,7 @@ double EventDrivenReference::time_since_collision(DiscId id, double time) const 
     return last < 0 ? std::numeric_limits<double>::infinity() : time - last;
 }
 
-/// The speed at which the surfaces of two touching discs approach, in sums of their first radii.
+/// The speed at which the surfaces of two touching discs approach, scaled to their first radii.
 double EventDrivenReference::approach(const DiscState& p, const DiscState& q, Copy copy) const {
     const Tiles tiles = setting_.tiles(last_sync());
     const double ex = (q.x - p.x) + tiles.x_to(copy, p.tau), ey = (q.y - p.y) + tiles.y_to(copy);
@@ -196,7 +196,7 @@ void EventDrivenReference::rebound(DiscState& disc, DiscId axis, bool is_high, d
         since, std::fabs((is_high ? v : -v) + (is_high ? -wall.speed : wall.speed) + in),
         radius * size, 1e-4);
     const double restitution = is_touched ? 1 : setting_.effects.boundaries[number].restitution;
-    if (discs_grow()) { // a wall that comes in
+    if (discs_grow()) { // as if the wall came in
         const double leaving = in + restitution * (in - (is_high ? -v : v));
         v = is_high ? -leaving : leaving;
         return;
@@ -271,7 +271,7 @@ void EventDrivenReference::push(Event event) {
     if (heap_.size() > most_predictions_) forget_invalid();
 }
 
-/// Removes void predictions. Otherwise those of fast discs would fill the memory.
+/// Removes void predictions, because those of fast discs would otherwise fill the memory.
 void EventDrivenReference::forget_invalid() {
     std::erase_if(heap_, [this](const Prediction& prediction) { return !is_valid(prediction); });
     std::make_heap(heap_.begin(), heap_.end(), comes_later);

@@ -39,7 +39,7 @@ struct Event {
     DiscId q = wall_x;
     std::int64_t sync = 0;
     bool is_fixed_body = false; ///< comes before walls
-    Copy copy{};                ///< which image of q it is, be that a disc or an obstacle
+    Copy copy{};                ///< the image of q, a disc or an obstacle
 
     friend bool operator==(const Event&, const Event&) = default;
 };

@@ -28,8 +28,8 @@ public:
     explicit FixedBodies(const Setting& setting);
 
     bool are_none() const { return species_.empty(); }
-    /// The first meeting from `from` on, without that with `left` at the disc's own time. Infinite
-    /// if there is none. Images of bodies are searched as far as the disc flies until `until`.
+    /// The first meeting from `from` on, except that with `left` at the disc's own time; infinite
+    /// if there is none. Searches images of bodies as far as the disc flies until `until`.
     BodyMeeting first_meeting(const DiscState& disc, double from, double until,
                               const BodyMeeting& left) const;
     /// Reverses the normal velocity of a disc that is at the body at `time`.

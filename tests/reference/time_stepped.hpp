@@ -155,7 +155,7 @@ struct Contact {
     double delay = -1;
 };
 
-/// The predicate of section 4, for p and that copy of q in the box, if it repeats itself.
+/// The predicate of section 4, for p and an image of q (in a box without periodic sides, q itself).
 /// `tolerance` is the deepest overlap that still collides; infinity in the event-driven method.
 Contact contact(const DiscState& p, const DiscState& q, double sigma, double tolerance,
                 Copy copy = {}, const Tiles& tiles = {});

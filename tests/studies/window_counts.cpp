@@ -9,13 +9,13 @@
 // HALO is the halo of a block's first run in reaches (0: as the engine chooses). CROWD is 0 for an
 // even gas, 1 if all discs lie in one hundredth of the box, 2 if half of them do. ACROSS is the
 // number of ranks that share a strip (0: as the engine chooses). The first 32 steps are left out,
-// because they forget the lattice that discs start from, and 256 of a crowd, because cuts between
-// ranks follow counted work. One line on standard output, as in the
-// heading that the program prints when it is called without arguments. Collisions, those that first
-// runs of blocks carry out, and discs that they see are counted for each disc and window. "busiest"
-// is the work of first runs on the busiest rank over the mean. "span" is the work that all ranks
-// wait for, repeated runs included, for each disc of a rank and window: a rank's work is the
-// collisions that it carries out plus 0.14 for each disc that its blocks see.
+// because discs start from a lattice, and 256 of a crowd, because cuts between ranks follow counted
+// work. One line on standard output, as in the heading that the program prints when it is called
+// without arguments. Collisions, those that first runs of blocks carry out, and discs of these runs
+// are counted for each disc and window. "busiest" is the work of first runs on the busiest rank
+// over the mean. "span" is the work that all ranks wait for, repeated runs included, for each disc
+// of a rank and window: a rank's work is the collisions that it carries out plus 0.14 for each disc
+// in its blocks and their halos.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -37,7 +37,7 @@ using namespace carrom;
 
 namespace {
 
-constexpr double per_disc = 0.14; ///< work of a disc that a block sees, in collisions
+constexpr double per_disc = 0.14; ///< work of a disc in a block or its halo, in collisions
 
 using Rounds = std::vector<std::vector<BlockWork>>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of 113 bits, with which predicates are compared: products of two doubles are exact in
-// them.
+// Numbers of 113 bits, a standard for tests of predicates, because they hold products of two
+// doubles exactly.
 //
 // GCC and Clang have them as __float128, or as long double if that has 113 bits. The square root
 // uses Newton's rule, so no library is needed.
@@ -19,7 +19,7 @@ __extension__ using Quad = __float128;
 
 inline Quad absolute(Quad value) { return value < 0 ? -value : value; }
 
-/// To within about 2^-111. Arguments may lie beyond the range of a double.
+/// The square root, to within about 2^-111. Arguments may lie beyond the range of a double.
 inline Quad square_root(Quad value) {
     if (value <= 0) return 0;
     Quad scale = 1;

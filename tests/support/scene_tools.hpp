@@ -24,7 +24,7 @@ public:
     }
     std::size_t index(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
 
-    /// A point of the unit circle, to within rounding.
+    /// A random point of the unit circle, to within rounding.
     std::pair<double, double> direction() {
         for (;;) {
             const double x = uniform(-1, 1), y = uniform(-1, 1);
@@ -41,7 +41,7 @@ private:
     std::mt19937_64 engine_;
 };
 
-/// With up to six digits, such as 0.3, 20000 and 1e-09, so that names distinguish small numbers.
+/// The number with up to six digits, such as 0.3 and 1e-09, so that names tell small ones apart.
 std::string number(double value);
 
 /// A scene without discs.
@@ -55,7 +55,7 @@ void add_disc(TestScene& scene, double x, double y, double vx = 0, double vy = 0
 void add_gas(TestScene& scene, std::size_t n, Random& random);
 
 /// Appends discs at rest of `scene.setting.effects.species`, in its order, at random without
-/// overlaps, which takes long in a dense box. Images count along periodic axes.
+/// overlaps, also of images along the axes that are round. Takes long in a dense box.
 void add_species(TestScene& scene, bool round_x, bool round_y, Random& random);
 
 /// The random share of the discs with which a rank starts, in a random order.
@@ -64,7 +64,7 @@ std::vector<InputDisc> share_of(const TestScene& scene, int rank, int n_ranks, u
 /// Sets velocities with uniform components and this root mean square speed.
 void set_speeds(TestScene& scene, double speed, Random& random);
 
-/// A gas of n discs of radius 1, speeds in diameters per step.
+/// A gas of n discs of radius 1; `speed` is in diameters per step.
 TestScene gas(std::size_t n, double packing, double speed, std::uint64_t seed);
 
 /// Discs whose two neighbours in x both reach them in the first micro-step; `times_kind` is

@@ -34,10 +34,10 @@ struct TestScene {
 /// The same scene in the engine's own input type, spins included.
 SceneParameters scene_of(const TestScene& scene);
 
-/// The scene with x and y exchanged, also in the box and its effects. States must be exchanged, bit
-/// by bit.
+/// The scene with x and y exchanged, also in the box and its effects. Its states must be those of
+/// the scene, exchanged bit by bit.
 TestScene transposed(const TestScene& scene);
-/// The scene with lengths and speeds times 2^exponent. States must be scaled, bit by bit.
+/// The scene with lengths and speeds times 2^exponent. Its states must be scaled too, bit by bit.
 TestScene scaled(const TestScene& scene, int exponent);
 /// The scene with other ids and in another order. It gives other results if ids break ties.
 TestScene shuffled(TestScene scene, std::uint64_t seed);

@@ -13,7 +13,7 @@ struct ShapePart {
     std::size_t number = 0, count = 1;
 };
 
-/// Read from $CARROM_TEST_PART, "number/count"; nothing if every shape makes all runs.
+/// The part in $CARROM_TEST_PART, "number/count"; nothing if every shape makes all runs.
 inline std::optional<ShapePart> shape_part() {
     const char* const text = std::getenv("CARROM_TEST_PART");
     if (text == nullptr) return std::nullopt;

@@ -9,7 +9,7 @@
 
 namespace carrom {
 
-/// The first columns of a line, which together differ between any two lines of a table.
+/// The first columns of a line; no two lines of a table agree in all of them.
 struct TrialKey {
     int start = 0; ///< number of the initial state, from 0
     RunSetting setting;
@@ -17,7 +17,7 @@ struct TrialKey {
     int repetition = 0; ///< number of the repetition, which measures the cost of a trial again
 };
 
-/// Mean distance of discs from those of another run, in diameters.
+/// Distances between the positions of the same disc in two runs, over all discs, in diameters.
 struct Distance {
     double root_mean_square = 0, median = 0;
 };

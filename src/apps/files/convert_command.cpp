@@ -42,7 +42,7 @@ std::vector<std::size_t> other_columns(const FileSummary& summary) {
     return places;
 }
 
-/// Chemical symbols, because readers of extended XYZ accept no other names. X is no element.
+/// Chemical symbols, because readers of extended XYZ accept no other names. X is a dummy symbol.
 constexpr std::array<std::string_view, 119> symbols = {
     "X",  "H",  "He", "Li", "Be", "B",  "C",  "N",  "O",  "F",  "Ne", "Na", "Mg", "Al", "Si",
     "P",  "S",  "Cl", "Ar", "K",  "Ca", "Sc", "Ti", "V",  "Cr", "Mn", "Fe", "Co", "Ni", "Cu",
@@ -200,7 +200,7 @@ std::string reason_against(const FileSummary& summary, Format format) {
     return {};
 }
 
-/// Converts the file on one rank. Returns why the output failed; empty if it did not.
+/// Converts the file on one rank. Returns the reason why the output failed; empty if it did not.
 std::string convert_alone(const std::string& path, Format format, const std::string& target) {
     const FrameFile file(path);
     std::vector<NamedFile> sources = {{"the file to convert", path}};

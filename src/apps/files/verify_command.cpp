@@ -49,12 +49,12 @@ std::string flaw_of(const DiscState& disc, double radius, const CheckpointHeader
     return {};
 }
 
-/// The region in which centres of discs may lie, for discs of radius 0. **Not collective.**
+/// The box from whose sides centres must be at least a radius away (flaw_of). **Not collective.**
 Extent room_of(const CheckpointHeader& header, const Effects& effects) {
     Extent box = extent_at(effects, header.box(), static_cast<double>(header.step));
     const auto make_room = [&](std::size_t side, double& line, double outwards) {
         if (effects.boundaries[side].kind == BoundaryKind::open)
-            line = outwards * infinity; // open side: discs may be on their way out
+            line = outwards * infinity; // open side: discs may be leaving
         if (effects.boundaries[side].is_periodic())
             line += outwards * header.radius; // periodic side: centres may be anywhere in the box
     };

@@ -17,8 +17,8 @@ struct Replica {
     std::uint64_t seed = 0;
 };
 
-/// Problems with files in the folder that the replicas would replace but that replicas have not
-/// written; one for each such file.
+/// One problem for each file in the folder that the replicas would replace although no replicas
+/// have written it.
 std::vector<Problem> problems_with_joined_files(const std::string& folder);
 
 /// The last step in the report of the folder; nullopt if there is no complete report.
@@ -34,7 +34,7 @@ struct JoinedReplicas {
 ///   replicas.csv   a line for each replica: folder, seed, state hash, averages
 ///   replicas.json  each average over the replicas: value and standard error of the mean, and how
 ///                  the scatter between replicas compares with the errors that they claim
-///   NAME.csv       each measured table that all have in the same form: means and their errors
+//   NAME.csv       each measured table that has one form in all replicas: means and their errors
 /// Throws CollectiveError, code 4, where a file cannot be written, and InputError where a report
 /// cannot be read. Call it on one rank.
 JoinedReplicas join_replicas(const std::vector<Replica>& replicas, const std::string& folder);

@@ -13,8 +13,8 @@ namespace carrom {
 /// The options of `carrom run`. They write to `run`, which must live as long as they do.
 std::vector<Option> run_options(RunOptions& run);
 
-/// Fills in values that depend on several options, and appends problems of options that exclude
-/// each other. Call it when all options are read. `overrides` are the options that set a key.
+/// Adds the settings of keys that have an option of their own, and appends problems of options that
+/// exclude each other. Call it when all options are read.
 RunOptions completed(RunOptions options, std::vector<Problem>& problems);
 
 } // namespace carrom

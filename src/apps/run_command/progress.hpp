@@ -42,7 +42,7 @@ public:
     Progress(std::int64_t first_step, std::int64_t last_step, bool wanted)
         : first_step_(first_step), last_step_(last_step), line_(wanted) {}
 
-    /// Prints if enough time has passed; may be called as often as one likes.
+    /// Prints if enough time has passed since the last print; call it after each step.
     void show(std::int64_t step);
     /// Ends the rewritten line, so that the next output starts on a line of its own.
     void finish() { line_.finish(); }

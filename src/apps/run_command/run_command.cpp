@@ -79,7 +79,7 @@ void print_result(const RunOptions& options, const SceneParameters& scene, const
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }
 
-/// The error of a run that gave up the step after `step`; `kept` names the state that was stored.
+/// The error of a run that abandoned the step after `step`; `kept` names the stored state.
 StopRequested given_up(std::int64_t step, const std::string& kept, const SceneParameters& scene) {
     return StopRequested(fmt::format(
         "stopped on request inside a step after {} of {}, which would take too long; {}{}", step,

@@ -264,7 +264,7 @@ double guarded_share(const RunResult& result) {
 }
 
 std::string warning_of_guarded_collisions(const SceneParameters& scene, const RunResult& result) {
-    // Contacts that last take that energy at the next sync, so no warning is needed.
+    // Lasting contacts take that energy at the next sync, so no warning is needed.
     if (scene.effects.lasting_speed > 0) return {};
     constexpr std::uint64_t fewest = 100; // with fewer collisions the share is random
     const double share = guarded_share(result);

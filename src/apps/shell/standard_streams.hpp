@@ -29,7 +29,7 @@ void print_message(fmt::format_string<Values...> format, Values&&... values) {
 /// Prints the messages of a run to standard error on rank 0, and drops them on the others.
 Messages messages_of(const Communicator& ranks, bool is_quiet);
 
-/// Flushes standard output. Returns false and prints a message if output was lost, except where the
+/// Flushes standard output. Returns false and prints a message if output was lost, unless the
 /// reader of a pipe has ended.
 bool finish_standard_output();
 

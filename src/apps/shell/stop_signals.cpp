@@ -43,7 +43,7 @@ void record_signal(int number) {
 
 void record_stop_signals() {
     static bool are_noted = false;
-    if (are_noted) return; // a second call would take our own handler for the default
+    if (are_noted) return; // a second call would mistake our own handler for the default
     are_noted = true;
     struct sigaction action{};
     action.sa_handler = record_signal;

@@ -28,7 +28,7 @@ namespace {
 constexpr QuantitySetting correlation_wavenumber{"correlation_wavenumber"},
     overlap_distance{"overlap_distance"};
 constexpr std::size_t most_species = 8; ///< with more species there are no tables by species
-/// The largest number of waves in a radius; over shorter waves discs only fly freely.
+/// The largest number of waves in a radius; over shorter waves discs always fly freely.
 constexpr double shortest_waves = 1000;
 /// The number of ids in a run; each run is on one rank
 constexpr std::uint64_t ids_of_run = Pieces::least_rows;
@@ -191,7 +191,7 @@ public:
     }
 
     /// Tests the last lag of each level and reports the one whose F_s depends most on the waiting
-    /// time. Longer lags have too few independent origins.
+    /// time. Lags above 1/32 of the run have too few independent origins.
     std::string doubt() const override {
         WaitingTimes::Comparison most;
         std::uint64_t length = 0;

@@ -108,7 +108,7 @@ MeasuredTable velocity_autocorrelation(const Windows& windows) {
     return table;
 }
 
-/// D from half the increase of mean squares in the second half of each window, for each axis.
+/// D for each axis: half the growth rate of the mean square in the second half of each window.
 MeasuredTable diffusion(const Windows& windows) {
     const std::size_t last = windows.n_times() - 1, middle = last / 2;
     MeasuredTable table{"diffusion",

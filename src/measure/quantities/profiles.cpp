@@ -313,7 +313,7 @@ private:
     std::vector<DiscId> ends_; ///< the id after the last one of each species
     bool are_sides_moving_ = false, have_masses_ = false;
     double speed_ = 0;
-    std::uint64_t n_samples_ = 0; ///< the next members belong to the unfinished block
+    std::uint64_t n_samples_ = 0; ///< this and the next four members belong to the unfinished block
     BlockHead head_;              ///< head of the unfinished block; its edges are sums over samples
     FieldSums sample_;            ///< the discs of the present sample, one kind after another
     FieldSums sums_;              ///< sums of this rank over the block, one kind after another

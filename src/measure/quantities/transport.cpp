@@ -30,7 +30,7 @@ namespace {
 /// The components of a moment: stress in two directions, its trace, and the heat current.
 enum Component : std::uint8_t { shear_xy, shear_normal, trace, heat_x, heat_y, n_components };
 
-/// Henderson's Z.
+/// Henderson's approximation of Z = P A / (N kT) for hard discs.
 double usual_pressure_per_density(double packing) {
     return (1 + packing * packing / 8) / ((1 - packing) * (1 - packing));
 }
@@ -189,10 +189,10 @@ private:
     std::optional<PressureSampler> pressure_;
     double speed_ = 0;              ///< typical speed, from which units follow
     std::array<double, 2> drift_{}; ///< velocity of the centre of mass, per step
-    std::array<ExactSum, 2> heat_;  ///< heat current of this rank since the last sample
+    std::array<ExactSum, 2> heat_;  ///< time integral of the heat current since the last sample
     std::int64_t last_step_ = 0;    ///< step of the last sample
     std::uint64_t n_samples_ = 0;   ///< including the first one
-    double temperature_ = 0;        ///< sum over the intervals
+    double temperature_ = 0;        ///< sum of kT over the intervals
     double usual_trace_ = 0;        ///< subtracted mean change of the trace in an interval
     Moments moments_{};             ///< moments of the last sample; 0 at the first one
     std::vector<Level> levels_;

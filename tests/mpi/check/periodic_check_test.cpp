@@ -141,7 +141,7 @@ TEST_CASE("check: a disc in an obstacle is found, across a seam too") {
     TestScene test = empty_scene("into a body", 40, 1, 10);
     test.setting.effects.boundaries = {periodic, periodic, periodic, periodic};
     test.setting.effects.fixed_bodies = {{{20, 20, 1}, {39, 10, 2}}, {}, 1};
-    add_disc(test, 4, 10, -2, 0); // 3 from its centre then
+    add_disc(test, 4, 10, -2, 0); // flies until it touches the second obstacle's image
     add_disc(test, 10, 30, 1, 0);
     CHECK_FALSE(failure_of_flight(test, Communicator::world()));
     test.discs[0].vx = -2.5;

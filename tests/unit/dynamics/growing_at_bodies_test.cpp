@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Discs that grow beside fixed bodies: contact times beside small steps of the distance, and
-// reflections seen from the moving surface.
+// Discs that grow beside fixed bodies: contact times compared with a search by small steps, and
+// reflections in the frame of the moving surface.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -105,7 +105,7 @@ TEST_CASE("growing discs leave a fixed body as the surface that meets it says") 
     for (const double restitution : {1.0, 0.5}) {
         effects.fixed_bodies.restitution = restitution;
         const FixedBodies line(100, 2, effects);
-        // Its surface approaches the line at 3 + 0.25; it leaves at the restitution's share of it.
+        // The surface approaches the line at 3 + 0.25; it leaves at this speed times `restitution`.
         DiscState disc = flying(20, 40, 1, 3);
         const DiscSize size{2, 0.25};
         const BodyContact contact = line.first_contact(disc, size, {0, 10});
@@ -115,7 +115,7 @@ TEST_CASE("growing discs leave a fixed body as the surface that meets it says") 
                      {nullptr, size.after(contact.time)});
         CHECK(disc.vx == 1);
         CHECK(disc.vy == Approx(-(0.25 + restitution * 3.25)).epsilon(1e-15));
-        // It does not meet the line again, although rounding may have put it a little into it.
+        // The disc does not meet the line again, although rounding may have put it a bit too near.
         const DiscSize now{size.after(contact.time), size.rate};
         CHECK(!line.first_contact(disc, now, {contact.time, 100}).exists());
     }

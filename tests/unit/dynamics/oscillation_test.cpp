@@ -264,9 +264,9 @@ TEST_CASE("oscillation: a disc that the wall has caught is met again when it sho
         flight.distance = flight.sign * wall.at(0).place; // touches the wall, to within rounding
         flight.rate = flight.sign * wall.at(0).velocity + away;
         if (flight.last_time() > 60 * Long(flight.period)) continue;
-        // By then the disc has left the wall: it has flown for a hundredth of the time after which
-        // it would be back.
-        // the largest possible one
+        // At `start` the disc has left the wall: it has flown for a hundredth of the time in which
+        // `pressure`, the largest possible acceleration towards the wall, would stop it relative to
+        // the wall.
         const Long pressure = speed * long_two_pi / flight.period - flight.pull;
         const Long start = away / pressure / 100;
         const Long gap = flight.gap(start);

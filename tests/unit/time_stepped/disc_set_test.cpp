@@ -16,7 +16,7 @@ TEST_CASE("sets of discs hold what was put in since they were emptied") {
         set.clear();
         std::set<LocalIndex> expected;
         const LocalIndex n_discs = 1u << (random() % 14), first = random() % 2 == 0 ? 0 : 0u - 9000;
-        // the largest distance that slots may have
+        // numbers that follow one another, or that lie far apart
         const LocalIndex stride = random() % 3 == 0 ? 4096 : 1;
         bool agree = true;
         for (unsigned k = random() % 3000; k > 0; --k) {
