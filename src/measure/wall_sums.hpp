@@ -17,7 +17,7 @@
 
 namespace carrom {
 
-/// One sum for each side, in the order of `side_names`.
+/// One sum for each side, in the order of `boundary_names`.
 class WallSums {
 public:
     /// `largest_sum` bounds the sum of any side's terms; the same on all ranks.
