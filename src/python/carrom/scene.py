@@ -16,7 +16,7 @@ from typing import Any, Union
 
 import numpy as np
 
-from carrom.errors import FileError
+from carrom.errors import CarromError, FileError
 from carrom.plain import read_text
 
 if sys.version_info >= (3, 11):
@@ -29,6 +29,9 @@ SceneLike = Union[Mapping[str, Any], str, "os.PathLike[str]"]
 
 SCENE_FILES = ("scene.toml", "scene.in")
 """A run keeps a copy of its scene under one of these names."""
+
+FILE_KEYS = ("discs.file", "discs.from", "effects.field.file")
+"""Keys that name a file by its path from the scene's own file."""
 
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _REMARK = "# --set "
@@ -280,7 +283,7 @@ def scene_file(scene: SceneLike, overrides: Mapping[str, Any], folder: Path) -> 
         words = []
     else:
         text = str(scene)
-        words += _absolute_file_words(text, words)
+        words = _with_absolute_files(text, words)
     path = _new_file(folder, text)
     try:
         yield SceneFile(path, words, text)
@@ -311,18 +314,29 @@ def set_words(overrides: Mapping[str, Any]) -> list[str]:
 
 
 def with_absolute_files(scene: dict[str, Any], beside: Path = Path()) -> dict[str, Any]:
-    """Name `discs.file` in full: the program looks beside the scene that it is given."""
-    discs = scene.get("discs")
-    if isinstance(discs, dict) and isinstance(discs.get("file"), (str, os.PathLike)):
-        discs["file"] = str((beside / discs["file"]).absolute())
+    """Name the files of `FILE_KEYS` in full: the program looks beside the scene that it is given.
+
+    Paths of a dictionary or a text begin in the working folder, which is `beside` by default.
+    """
+    for key, file in _files_of(scene).items():
+        _put(scene, key, str((beside / file).absolute()))
     return scene
 
 
-def _absolute_file_words(text: str, words: list[str]) -> list[str]:
+def _files_of(scene: Mapping[str, Any]) -> dict[str, str | os.PathLike[str]]:
+    """Return the files of `FILE_KEYS` that a nested scene names."""
+    found = flattened(scene)
+    files = {key: found.get(key) for key in FILE_KEYS}
+    return {
+        key: file for key, file in files.items() if isinstance(file, (str, os.PathLike)) and file
+    }
+
+
+def _with_absolute_files(text: str, words: list[str]) -> list[str]:
+    """Return settings for a scene's text that name its files in full."""
     try:
-        file = _loaded(text).get("discs", {}).get("file")
-    except (tomllib.TOMLDecodeError, AttributeError, RecursionError):
-        return []  # the program reports it
-    if not isinstance(file, str) or any(word.startswith("discs.file=") for word in words):
-        return []
-    return [f"discs.file={toml_value(Path(file).absolute())}"]
+        files = _files_of(parsed(text, "scene.toml", words))
+    except (CarromError, TypeError, ValueError):
+        return words  # the program reports it
+    others = [word for word in words if word.partition("=")[0] not in files]
+    return others + [f"{key}={toml_value(Path(file).absolute())}" for key, file in files.items()]

@@ -6,10 +6,12 @@ from __future__ import annotations
 import argparse
 import math
 import sys
+import warnings
 from collections.abc import Sequence
 
 from carrom.errors import CarromError, ProgramError
 from carrom.importing.importer import FORMATS, Choice, import_discs
+from carrom.launching import CarromWarning
 
 
 def _by_type(words: Sequence[str] | None, what: str) -> dict[str, float]:
@@ -39,7 +41,8 @@ def _parser() -> argparse.ArgumentParser:
         prog="carrom-import",
         description="Take discs from a file of another program: GSD, LAMMPS dump and data, "
         "(extended) XYZ, CSV with named columns, or rows `x y vx vy r m`. Writes a checkpoint for "
-        "`discs.from`, and prints the tables [box] and [discs] of a scene that begins from it.",
+        "`discs.from`, and prints the tables [box] and [discs] of a scene that begins from it. The "
+        "path in `discs.from` is that of -o, so a scene in the working folder finds the file.",
         epilog="Exit codes: 0 done; 2 the file or an option is wrong, and nothing was written.",
     )
     add = parser.add_argument
@@ -89,7 +92,9 @@ def main(words: Sequence[str] | None = None) -> int:
     """Import what the command line names; return the exit code."""
     options = _parser().parse_args(words)
     try:
-        imported = import_discs(options.file, options.output, _choice(options))
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", CarromWarning)
+            imported = import_discs(options.file, options.output, _choice(options))
     except ProgramError as error:
         print(error, file=sys.stderr)
         return error.returncode if error.returncode > 0 else 3
@@ -102,6 +107,8 @@ def main(words: Sequence[str] | None = None) -> int:
     except MemoryError:
         print(f"{options.file}: has more discs than memory can hold", file=sys.stderr)
         return 2
+    for warning in caught:
+        print(f"warning: {warning.message}", file=sys.stderr)
     for remark in imported.remarks:
         print(remark, file=sys.stderr)
     print(imported.scene, end="")

@@ -34,6 +34,7 @@ class Discs:
     box: Box | None = None
     lines: npt.NDArray[np.int64] | None = None  # where each disc stands
     place: str = ""  # the file, and also the frame if `lines` is None
+    remarks: list[str] = dataclasses.field(default_factory=list)  # what was left out, as warnings
 
     @property
     def count(self) -> int:

@@ -10,6 +10,7 @@ import os
 import re
 import shutil
 import tempfile
+import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
@@ -20,8 +21,10 @@ from carrom.destinations import refuse_owned
 from carrom.errors import FileError, InputError
 from carrom.importing import gsd, lammps, rows, xyz
 from carrom.importing.discs import Box, Discs
+from carrom.launching import CarromWarning
 from carrom.plain import open_plain
 from carrom.running import run
+from carrom.scene import toml_value
 
 Reader = Callable[[str, "int | None", "int | None"], Discs]
 FORMATS: dict[str, Reader] = {
@@ -113,9 +116,17 @@ def read_discs(path: str | os.PathLike[str], choice: Choice | None = None) -> Di
     """Read a frame, and check and complete it: discs are in a box from (0, 0) on, or where the
     file has them with `keep_origin`, and have velocities per step, radii and masses.
 
+    Columns of rows whose names are not known are left out. A `CarromWarning` names them, because
+    a name may be misspelled.
+
     Raises:
         FileError: the file is wrong, or says too little; the message has the line or the frame
     """
+    return _read_discs(path, choice)
+
+
+def _read_discs(path: str | os.PathLike[str], choice: Choice | None) -> Discs:
+    """Do what `read_discs` does. Warnings name the line that called the caller."""
     choice = choice or Choice()
     name = os.fspath(path)
     try:
@@ -126,6 +137,8 @@ def read_discs(path: str | os.PathLike[str], choice: Choice | None = None) -> Di
     _check_numbers(discs)
     _complete(discs, choice)
     _put_into_box(discs, choice)
+    for remark in discs.remarks:
+        warnings.warn(remark, CarromWarning, stacklevel=3)
     return _in_order(discs)
 
 
@@ -258,9 +271,13 @@ def import_discs(
 ) -> Imported:
     """Write the discs of a frame as a checkpoint at step 0, which is replaced.
 
-    Returns the tables [box] and [discs] of a scene that begins from it, with remarks.
+    Returns the tables [box] and [discs] of a scene that begins from it, with remarks. `discs.from`
+    there is `output` as it was given. So the scene finds a relative path if the scene's file lies
+    in the working folder of this call, or if its text is passed to `carrom.run` or
+    `carrom.Simulation` from this folder. For a scene that will lie elsewhere give an absolute path.
 
     The program itself checks the discs and writes the file, so pairs that overlap are an error.
+    Columns of rows whose names are not known are left out, with a `CarromWarning`.
 
     Raises:
         FileError: the file is wrong, or says too little
@@ -270,7 +287,7 @@ def import_discs(
     refuse_owned(output, begins=(b"\x89HDF",))
     if output.exists() and Path(path).exists() and output.samefile(path):
         raise FileError(f"{output}: is the file to import; name another output")
-    discs = read_discs(path, choice)
+    discs = _read_discs(path, choice)
     with tempfile.TemporaryDirectory() as folder:
         scene = Path(folder) / "scene.toml"
         columns = [discs.columns[name].tolist() for name in ("x", "y", "vx", "vy")]
@@ -291,13 +308,8 @@ def import_discs(
         part = output.with_name(output.name + ".part")
         shutil.copyfile(made[-1], part)
         part.replace(output)
-    own = json_string(output.name)
-    return Imported(_scene(discs, f"from = {own}"), _remarks(discs))
-
-
-def json_string(text: str) -> str:
-    """The text in the quotes of TOML."""
-    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    source = f"from = {toml_value(output)}"
+    return Imported(_scene(discs, source), _remarks(discs))
 
 
 def _remarks(discs: Discs) -> list[str]:

@@ -15,7 +15,8 @@ MOST_BYTES = 2 << 30  # rows of all frames are in memory at once
 _TEACHING = ["x", "y", "vx", "vy", "r", "m"]
 _PLAIN = {count: _TEACHING[:count] for count in (2, 3, 4, 5, 6)} | {3: ["x", "y", "r"]}
 _COURSE = ["step", "id", "x", "y", "vx", "vy"]
-_COUNTERS = ["p_c", "w_c"]
+# Columns of `carrom convert --to csv` that no scene takes, because its counts begin at 0.
+_COUNTS = {"pair_collisions", "wall_collisions", "image_x", "image_y"}
 
 Row = tuple[int, list[str]]
 
@@ -30,8 +31,9 @@ def names_in(words: list[str]) -> bool:
     return {"x", "y"} <= {MEANING.get(word.lower(), "") for word in words}
 
 
-def _all_rows(path: str) -> tuple[list[str] | None, list[Row]]:
-    """Return the names of the columns, if the file has them, and the rows."""
+def _all_rows(path: str) -> tuple[int, list[str] | None, list[Row]]:
+    """Return the line and the names of the columns, if the file has them, and the rows."""
+    line_of_names = 0
     names: list[str] | None = None
     rows: list[Row] = []
     with Lines(path) as lines:
@@ -44,13 +46,28 @@ def _all_rows(path: str) -> tuple[list[str] | None, list[Row]]:
             line = line.lstrip("\ufeff")
             if not rows and names is None and names_in(words_of(line.lstrip("# "))):
                 names = words_of(line.lstrip("# "))
+                line_of_names = lines.number
                 continue
             words = words_of(line)
             if words != [""]:
                 rows.append((lines.number, words))
     if not rows:
         raise FileError(f"{path}: has no rows of discs")
-    return names, rows
+    return line_of_names, names, rows
+
+
+def _remarks(path: str, line: int, names: list[str] | None) -> list[str]:
+    """Name the columns that are left out because their names are not known."""
+    unknown = [
+        name for name in names or [] if name.lower() not in MEANING and name.lower() not in _COUNTS
+    ]
+    if not unknown:
+        return []
+    which = "column" if len(unknown) == 1 else "columns"
+    return [
+        f"{path}:{line}: {which} {', '.join(map(repr, unknown))} left out, because only these "
+        f"names are known: {', '.join(MEANING)}"
+    ]
 
 
 def _are_of_course(rows: list[Row]) -> bool:
@@ -77,7 +94,8 @@ def _frames(path: str, rows: list[Row], place: int) -> list[tuple[int, list[Row]
 
 def read_rows(path: str, frame: int | None, step: int | None) -> Discs:
     """Read a frame of rows. A column `step` makes frames."""
-    names, rows = _all_rows(path)
+    line, names, rows = _all_rows(path)
+    remarks = _remarks(path, line, names)
     is_of_course = names is None and _are_of_course(rows)
     if is_of_course:
         names = _COURSE
@@ -98,4 +116,4 @@ def read_rows(path: str, frame: int | None, step: int | None) -> Discs:
         chosen(path, 1, frame, step, [None])
     columns, kinds, lines = parse_rows(path, rows, names)
     columns.pop("step", None)
-    return Discs(columns, kinds, None, lines, path)
+    return Discs(columns, kinds, None, lines, path, remarks)
