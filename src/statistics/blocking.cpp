@@ -46,11 +46,17 @@ Level level_of(std::span<const double> terms) {
     return level;
 }
 
-/// Statistics of blocks of increasing length, until only two or three are left.
+/// Statistics of blocks of increasing length, until only two or three are left. Longer blocks that
+/// are all equal, as counts of rare events can be, are left out, because their variance of 0 shows
+/// neither an error nor a correlation.
 std::vector<Level> levels_of(std::span<const double> terms) {
     std::vector<Level> levels;
     for (std::vector<double> joined(terms.begin(), terms.end()); joined.size() >= 2;) {
         levels.push_back(level_of(joined));
+        if (levels.size() > 1 && !(levels.back().variance > 0)) {
+            levels.pop_back();
+            break;
+        }
         for (std::size_t k = 0; k < joined.size() / 2; ++k)
             joined[k] = (joined[2 * k] + joined[2 * k + 1]) / 2;
         joined.resize(joined.size() / 2);

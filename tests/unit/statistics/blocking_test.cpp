@@ -109,6 +109,11 @@ TEST_CASE("short series have no error, and memory does not grow") {
     CHECK(blocks.means()[2].error == 0);
 }
 
+TEST_CASE("equal halves do not make the error 0") {
+    CHECK(mean_of({1, 3, 2, 2}).error == Approx(std::sqrt(0.5 / 3)));
+    CHECK(mean_of({1, 0, 0, 0, 0, 0, 0, 1}).error > 0.1);
+}
+
 TEST_CASE("the error of a sum allows for values that vary together") {
     const std::vector<double> noise = series(20000, 1, 7);
     VectorBlocks blocks(2);
