@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -26,6 +27,9 @@ struct Estimate {
     /// Correlation time in steps. The shortest one that can be measured is half a block.
     double correlation_time = std::numeric_limits<double>::quiet_NaN();
     double independent_samples = std::numeric_limits<double>::quiet_NaN();
+    /// Whether the run is too short for an error that covers the scatter; only in runs planned for
+    /// a million steps or more, whose first blocks are single steps
+    bool is_short = false;
     bool is_conserved = false; ///< whether all blocks agree except for rounding
     bool is_changing = false;  ///< the halves of the run differ by more than their errors allow
     /// Mean of the first block, if the average is changing
@@ -70,5 +74,8 @@ struct Averages {
                  {"kurtosis", speed_kurtosis}}};
     }
 };
+
+/// The reason why an average has no error; empty if it has one.
+std::string reason_without_error(const Estimate& estimate, const Averages& averages);
 
 } // namespace carrom

@@ -15,6 +15,9 @@ namespace {
 
 /// In long runs samples are at least this many micro-steps apart.
 constexpr std::int64_t usual_interval = 64;
+/// A run of so many steps samples each step at first. Its some hundred samples more cost nothing in
+/// the long run, and nobody knows yet at which step a user of the library stops.
+constexpr std::int64_t many_steps = 1'000'000;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 } // namespace
@@ -42,8 +45,21 @@ void BlockAverages::begin() {
     steps_per_sample_ = std::clamp<std::int64_t>((system_.last_step - first_step_) / wanted, 1,
                                                  most_steps_per_sample());
     if (does_energy_jump(run_.scene.effects)) steps_per_sample_ = between_syncs(steps_per_sample_);
+    if (begins_with_steps()) steps_per_sample_ = 1; // `add` makes samples rarer and blocks longer
     steps_per_block_ = steps_per_sample_;
     blocks_.clear();
+}
+
+/// Samples of energies that jump keep their phases between syncs, so their interval does not
+/// change.
+bool BlockAverages::begins_with_steps() const {
+    return system_.last_step >= many_steps && !does_energy_jump(run_.scene.effects);
+}
+
+bool BlockAverages::is_short(const Block& whole, double collisions_per_disc) const {
+    return begins_with_steps() &&
+           (blocks_.size() < fewest_short_blocks || whole.walls + whole.pairs < fewest_collisions ||
+            2 * whole.pairs < collisions_per_disc * system_.n_discs);
 }
 
 /// A time between samples of at most `steps`. If possible, it is chosen so that samples fall on
@@ -187,10 +203,12 @@ bool BlockAverages::lost_discs() const {
 }
 
 template <class Value>
-Estimate BlockAverages::estimate(const Block& whole, const Value& value) const {
+Estimate BlockAverages::estimate(const Block& whole, const Value& value, double collisions) const {
     Estimate result;
     result.value = value(whole);
     if (std::isnan(result.value)) return result; // undefined for this scene
+    result.is_short = is_short(whole, collisions);
+    if (result.is_short) return result;
     std::vector<double> terms;
     for (const Block& block : blocks_) terms.push_back(value(block));
     const BlockedMean blocked = blocked_mean(terms);
@@ -208,7 +226,8 @@ Estimate BlockAverages::estimate(const Block& whole, const Value& value) const {
 
 void BlockAverages::fill_pressures(Averages& result, const Block& whole) const {
     const auto part = [&](double Tensor::* one) {
-        return estimate(whole, [one](const Block& b) { return b.motion.pressure(one); });
+        return estimate(
+            whole, [one](const Block& b) { return b.motion.pressure(one); }, fewest_collisions);
     };
     result.temperature = estimate(whole, [](const Block& b) { return b.motion.temperature(); });
     result.pressure_tensor = {part(&Tensor::xx), part(&Tensor::xy), part(&Tensor::yy)};
@@ -271,8 +290,10 @@ Averages BlockAverages::averages() const {
     if (!system_.keeps_discs) result.collision_frequency = result.mean_free_time = {};
     // A single disc keeps its speed along each axis, so theories of equilibrium do not hold for it.
     if (system_.is_plain && n > 1) fill_counted_pressures(result, whole, sample);
-    result.mean_speed = estimate(whole, [](const Block& b) { return b.speed / b.steps(); });
-    result.speed_kurtosis = estimate(whole, [](const Block& b) { return b.kurtosis / b.steps(); });
+    result.mean_speed = estimate(
+        whole, [](const Block& b) { return b.speed / b.steps(); }, fewest_collisions);
+    result.speed_kurtosis = estimate(
+        whole, [](const Block& b) { return b.kurtosis / b.steps(); }, fewest_collisions);
     fill_pressures(result, whole);
     return result;
 }

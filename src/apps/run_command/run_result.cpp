@@ -125,21 +125,6 @@ namespace {
 /// With fewer samples an error is a fifth too small on average (statistics/blocking.hpp).
 constexpr int fewest_independent_samples = 8;
 
-} // namespace
-
-std::string reason_without_error(const Estimate& estimate, const Averages& averages) {
-    if (estimate.is_conserved) return "conserved";
-    if (estimate.is_changing) return "still changing: a trend is not an error";
-    if (std::isfinite(estimate.error)) return {};
-    if (averages.steps == 0) return "nothing is averaged: no step came after the first one";
-    if (std::isnan(estimate.value)) return "it has no meaning in this scene";
-    if (std::isinf(estimate.value)) return "no disc met another one";
-    return fmt::format("the {} averaged steps make {} blocks, and an error takes {}",
-                       averages.steps, averages.n_blocks, fewest_blocks);
-}
-
-namespace {
-
 /// One text with the watched numbers that still change or that fluctuate too slowly for the run's
 /// length, and with the consequence; empty if there are none.
 std::string changes_of(std::span<const WatchedNumber> watched) {
@@ -167,6 +152,8 @@ std::string changes_of(std::span<const WatchedNumber> watched) {
 } // namespace
 
 std::string doubts_of_averages(const Averages& averages, std::span<const WatchedNumber> watched) {
+    if (averages.pressure.is_short)
+        return "none: " + reason_without_error(averages.pressure, averages);
     if (averages.steps == 0 || averages.n_blocks < static_cast<std::int64_t>(fewest_blocks))
         return "none: " + reason_without_error({averages.temperature.value}, averages);
     std::vector<std::string_view> changing, uncertain;

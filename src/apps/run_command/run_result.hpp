@@ -75,8 +75,6 @@ double collisions_per_disc(const SceneParameters& scene, const RunResult& result
 /// Rejected candidates divided by all candidates, since this process began.
 double rejected_share(const RunResult& result);
 
-/// The reason why an average has no error; empty if it has one.
-std::string reason_without_error(const Estimate& estimate, const Averages& averages);
 /// One line on averages and `watched` numbers that are still changing or whose errors rest on few
 /// independent samples; empty if there are none.
 std::string doubts_of_averages(const Averages& averages,

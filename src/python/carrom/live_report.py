@@ -80,6 +80,11 @@ def facts_to_show(sim: Any) -> dict[str, Any]:
     }
 
 
-def _estimate(entry: Mapping[str, Any]) -> dict[str, float | None]:
+def _estimate(entry: Mapping[str, Any]) -> dict[str, float | str | None]:
     """Numbers that do not exist are None, as in report.json."""
-    return {name: None if math.isnan(entry[name]) else entry[name] for name in _OF_ESTIMATE}
+    estimate: dict[str, float | str | None] = {
+        name: None if math.isnan(entry[name]) else entry[name] for name in _OF_ESTIMATE
+    }
+    if entry["without_error"]:
+        estimate["without_error"] = entry["without_error"]
+    return estimate

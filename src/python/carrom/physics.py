@@ -28,11 +28,31 @@ _VIRIAL = (
 )
 
 
-class Measured(NamedTuple):
-    """A number with one standard error; the error is nan where the program gives none."""
-
+class _ValueAndError(NamedTuple):
     value: float
     error: float
+
+
+class Measured(_ValueAndError):
+    """A number with one standard error: `value, error = measured`.
+
+    Attributes:
+        value: the number
+        error: one standard error; nan where there is none
+        without_error: why there is no error; empty if there is one, or if nobody knows
+    """
+
+    without_error: str
+
+    def __new__(cls, value: float, error: float, without_error: str = "") -> Measured:
+        """Join the numbers, and the reason why an error of nan is not known."""
+        measured = super().__new__(cls, value, error)
+        measured.without_error = without_error
+        return measured
+
+    def __repr__(self) -> str:
+        reason = f" ({self.without_error})" if self.without_error else ""
+        return f"Measured(value={self.value!r}, error={self.error!r}{reason})"
 
 
 Array = npt.NDArray[np.float64]
@@ -88,7 +108,8 @@ def _measured(run: Run, entry: Any, name: str) -> Measured:
         known = ", ".join(quantities(run)) or "none"
         raise NoDataError(f"{run.name}: the report has no {name} of this scene; it has {known}")
     error = entry["error"]
-    return Measured(float(entry["value"]), math.nan if error is None else float(error))
+    reason = entry.get("without_error", "")
+    return Measured(float(entry["value"]), math.nan if error is None else float(error), reason)
 
 
 def _has_value(entry: Any) -> bool:

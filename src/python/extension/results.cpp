@@ -6,13 +6,13 @@ namespace carrom::python {
 
 namespace {
 
-nb::dict estimate_of(const Estimate& estimate) {
+nb::dict estimate_of(const Estimate& estimate, const Averages& averages) {
     nb::dict result;
     result["value"] = estimate.value;
     result["error"] = estimate.error;
     result["correlation_time"] = estimate.correlation_time;
     result["independent_samples"] = estimate.independent_samples;
-    result["is_changing"] = estimate.is_changing;
+    result["without_error"] = reason_without_error(estimate, averages);
     return result;
 }
 
@@ -127,18 +127,19 @@ nb::dict averages_of(const Core& core) {
         averages = core.simulation.averages();
     }
     nb::dict result, of;
-    of["temperature"] = estimate_of(averages.temperature);
-    of["pressure"] = estimate_of(averages.pressure);
-    of["compressibility"] = estimate_of(averages.compressibility);
-    of["pressure_xx"] = estimate_of(averages.pressure_tensor.xx);
-    of["pressure_xy"] = estimate_of(averages.pressure_tensor.xy);
-    of["pressure_yy"] = estimate_of(averages.pressure_tensor.yy);
-    of["collision_frequency"] = estimate_of(averages.collision_frequency);
-    of["mean_free_time"] = estimate_of(averages.mean_free_time);
-    of["wall_pressure"] = estimate_of(averages.wall_pressure);
-    of["virial_pressure"] = estimate_of(averages.virial_pressure);
-    of["mean_speed"] = estimate_of(averages.mean_speed);
-    of["speed_kurtosis"] = estimate_of(averages.speed_kurtosis);
+    for (const auto& [name, estimate] : {std::pair{"temperature", averages.temperature},
+                                         {"pressure", averages.pressure},
+                                         {"compressibility", averages.compressibility},
+                                         {"pressure_xx", averages.pressure_tensor.xx},
+                                         {"pressure_xy", averages.pressure_tensor.xy},
+                                         {"pressure_yy", averages.pressure_tensor.yy},
+                                         {"collision_frequency", averages.collision_frequency},
+                                         {"mean_free_time", averages.mean_free_time},
+                                         {"wall_pressure", averages.wall_pressure},
+                                         {"virial_pressure", averages.virial_pressure},
+                                         {"mean_speed", averages.mean_speed},
+                                         {"speed_kurtosis", averages.speed_kurtosis}})
+        of[name] = estimate_of(estimate, averages);
     result["first_step"] = averages.first_step;
     result["steps"] = averages.steps;
     result["blocks"] = averages.n_blocks;

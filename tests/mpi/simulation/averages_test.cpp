@@ -237,3 +237,28 @@ TEST_CASE("averages: they begin where the scene says, and a short run has errors
         CHECK(averages.pressure.error < averages.pressure.value);
     }
 }
+
+TEST_CASE("averages: a run planned for a million steps has errors after some collisions") {
+    const Communicator world = Communicator::world();
+    test::TestScene test = test::gas(50, 0.3, 0.5, 75);
+    test.steps = 1'000'000;
+    SceneParameters scene = test::scene_of(test);
+    scene.method = Method::event_driven;
+    DiscSystem system(scene, world.is_root() ? test.discs : std::vector<InputDisc>{}, world, {});
+    test::Averaging averaging(scene, system, world);
+    averaging.advance_to(15);
+    CHECK(averaging.averages().pressure.is_short);
+    CHECK(std::isnan(averaging.averages().pressure.error));
+    averaging.advance_to(16);
+    const Averages first = averaging.averages();
+    CHECK(first.n_blocks == 16);
+    CHECK(first.collision_frequency.value * 16 < 32);
+    CHECK(first.pressure.error > 0);
+    CHECK(first.mean_speed.is_short);
+    CHECK(reason_without_error(first.mean_speed, first).starts_with("too short: an error takes"));
+    averaging.advance_to(500); // blocks of 4 steps
+    const Averages later = averaging.averages();
+    CHECK(later.n_blocks == 125);
+    CHECK(later.mean_speed.error > 0);
+    CHECK(later.pressure.error < first.pressure.error);
+}

@@ -134,6 +134,19 @@ TEST_CASE("what nothing is averaged of is null, with the reason") {
     }
 }
 
+TEST_CASE("a run that is too short for errors says what they take") {
+    RunResult result = small_result();
+    result.averages.steps = 10;
+    result.averages.n_blocks = 10;
+    result.averages.pressure.value = 0.5;
+    result.averages.pressure.is_short = true;
+    const auto report = nlohmann::json::parse(report_text(small_scene(), result));
+    const std::string reason = report.at("pressure").at("without_error");
+    CHECK(reason.starts_with("too short: an error takes 16 steps and 32 collisions"));
+    CHECK(report.at("pressure").at("error").is_null());
+    CHECK(doubts_of_averages(result.averages) == "none: " + reason);
+}
+
 TEST_CASE("what is conserved or still changing has no error, and says so") {
     RunResult result = small_result();
     result.averages.steps = 50;
