@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <carrom/errors.hpp>
 
@@ -42,6 +43,11 @@ public:
     /// Name and version of the MPI library; may be called before MPI starts. Communicators of
     /// another MPI library cannot be used.
     static std::string mpi_library();
+
+    /// Throws InputError with the problems of all ranks, in the order of ranks, on every rank if
+    /// any rank has one. So a program can check its own data before a collective call, and no rank
+    /// makes the call alone. **Collective.**
+    void agree_on(const std::vector<Problem>& problems) const;
 
     /// Runs `body` on every rank and returns the largest exit code of all ranks, for main. A rank's
     /// code is the result of `body`, or that of an InputError or CollectiveError, whose text rank 0

@@ -144,7 +144,13 @@ void require_free_files(std::size_t n_parts) {
 
 void check_room(const std::string& folder, std::uint64_t bytes) {
     struct statvfs status{};
-    if (::statvfs(folder.c_str(), &status) != 0) fail_with_errno("its file system cannot be asked");
+    if (::statvfs(folder.c_str(), &status) != 0) {
+        if (errno == ENOENT)
+            throw FileError(fmt::format("cannot be written, because there is no folder {}; make it "
+                                        "first",
+                                        folder));
+        fail_with_errno("its file system cannot be asked");
+    }
     const std::uint64_t room = std::uint64_t{status.f_bavail} * status.f_frsize;
     // Some file systems do not support this and report 0 of 0.
     if (status.f_blocks > 0 && room < bytes)

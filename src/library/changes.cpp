@@ -107,6 +107,17 @@ void apply(const Disc& disc, const Change& change, const DiscState& shown, const
     }
 }
 
+/// Throws one problem if smooth discs are given spins, because all have the same reason.
+/// **Collective.**
+void refuse_spins_of_smooth(const std::vector<Disc>& discs, const Run& run) {
+    const bool have_spins = !run.system().spins().empty();
+    const bool are_given = std::ranges::any_of(discs, [](const Disc& d) { return d.spin != 0; });
+    if (run.ranks().any(are_given && !have_spins))
+        throw InputError({{call_name, 0,
+                           "discs are smooth, and only rough discs turn; leave out their spins, or "
+                           "set effects.contact.kind = \"rough\" in the scene"}});
+}
+
 /// The problems of discs in the order of their ids.
 std::vector<Problem> problems_of(const std::vector<Disc>& discs, const std::vector<Disc>& present,
                                  const Run& run) {
@@ -117,7 +128,6 @@ std::vector<Problem> problems_of(const std::vector<Disc>& discs, const std::vect
                              present.size())}};
     std::vector<Problem> problems;
     const Room room(run);
-    const bool have_spins = !run.system().spins().empty();
     for (std::size_t i = 0; i < discs.size() && problems.size() < most_named; ++i) {
         const Disc& disc = discs[i];
         const auto refuse = [&](const std::string& text) {
@@ -127,8 +137,6 @@ std::vector<Problem> problems_of(const std::vector<Disc>& discs, const std::vect
         if (!std::isfinite(disc.x) || !std::isfinite(disc.y) || !std::isfinite(disc.vx) ||
             !std::isfinite(disc.vy) || !std::isfinite(disc.spin))
             refuse("has a number that is not finite");
-        else if (disc.spin != 0 && !have_spins)
-            refuse("has a spin, but only rough discs turn (effects.contact.kind = \"rough\")");
         else if (const std::string text = is_moved ? room.problem(disc) : ""; !text.empty())
             refuse(fmt::format("at ({}, {}) {}", disc.x, disc.y, text));
     }
@@ -212,6 +220,7 @@ void Simulation::change_discs(std::span<const Disc> changed) {
     std::vector<Disc> sorted(changed.begin(), changed.end());
     std::ranges::sort(sorted, {}, &Disc::id);
     agree_on_problems(run.ranks(), problems_of(sorted, discs(), run));
+    refuse_spins_of_smooth(sorted, run);
     RunStart start = stored_start(run);
     const Changed mine = change_stored(sorted, run, *start.stored);
     if (!run.ranks().any(mine.any)) return;

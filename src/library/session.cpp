@@ -3,6 +3,7 @@
 
 #include "io/start_io.hpp"
 #include "library/session_state.hpp"
+#include "parallel/agreement.hpp"
 #include "parallel/meeting.hpp"
 
 namespace carrom {
@@ -48,6 +49,11 @@ std::string Session::mpi_library() { return mpi_version(); }
 
 int Session::rank() const { return state_->ranks.rank(); }
 int Session::size() const { return state_->ranks.size(); }
+
+void Session::agree_on(const std::vector<Problem>& problems) const {
+    meet(state_->ranks, "Session::agree_on");
+    agree_on_problems(state_->ranks, problems);
+}
 
 int Session::run(const std::function<int()>& body) const {
     Departure departure(state_->ranks);

@@ -43,13 +43,17 @@ std::string_view table_of(std::string_view key) {
 
 std::string_view last_of(std::string_view key) { return key.substr(key.rfind('.') + 1); }
 
-/// Names of the keys and tables in `table`; all names if the table is unknown.
+/// Names of the keys and tables in `table`. If the table is unknown, all names: those with fewer
+/// dots come first, because of equally near names the outer one is meant more often.
 std::vector<std::string_view> names_in(std::string_view table, bool is_known) {
     std::vector<std::string_view> names;
     for (const Key& one : keys())
         if (!is_known || one.table() == table) names.push_back(one.name);
     for (const Table& one : tables())
         if (!is_known || table_of(one.name) == table) names.push_back(one.name);
+    if (!is_known)
+        std::ranges::stable_sort(
+            names, {}, [](std::string_view name) { return std::ranges::count(name, '.'); });
     return names;
 }
 

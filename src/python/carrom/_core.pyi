@@ -111,6 +111,9 @@ class Core:
     def restart_averages(self) -> None:
         """Forget what has been averaged. Collective."""
 
+    def agree_on(self, problems: Sequence[str]) -> None:
+        """Raise the problems of all ranks on each rank, if any rank has one. Collective."""
+
     def change(
         self,
         positions: NDArray[np.float64] | None,

@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Callable
 from typing import Generic, TypeVar
+
+from carrom.given_arrays import whole
 
 Simulated = TypeVar("Simulated")  # a simulation, which is defined in a module above this one
 
@@ -20,11 +21,12 @@ class Actions(Generic[Simulated]):
 
     def add(self, interval: int, action: Callable[[Simulated], object]) -> None:
         """Call the action at each multiple of `interval`."""
-        if operator.index(interval) < 1:
+        interval = whole("interval must be a whole number of steps", interval)
+        if interval < 1:
             raise ValueError(f"interval is a number of steps, at least 1, not {interval}")
         if not callable(action):
             raise TypeError(f"an action is a function of the simulation, not {action!r}")
-        self._of.append((operator.index(interval), action))
+        self._of.append((interval, action))
 
     def forget(self, action: Callable[[Simulated], object]) -> None:
         """Call an action no more."""

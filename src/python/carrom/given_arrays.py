@@ -3,12 +3,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+import operator
+import re
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from carrom.disc_arrays import Array
+from carrom.errors import SceneError
+
+if TYPE_CHECKING:
+    from carrom import _core
 
 _MARKS_OF_UNITS = ("to_value", "magnitude", "in_units")  # astropy, pint, unyt
 
@@ -19,7 +25,21 @@ def locked(array: Array) -> Array:
     return array
 
 
-def checked(name: str, unit: str, values: Any, shape: tuple[int, ...]) -> Array | None:
+def whole(what: str, value: Any) -> int:
+    """Return a whole number; `what` begins the message for another one.
+
+    Raises:
+        TypeError: it is none
+    """
+    try:
+        return operator.index(value)
+    except TypeError:
+        is_whole = isinstance(value, (float, np.floating)) and float(value).is_integer()
+        advice = f"; try: {int(value)}" if is_whole else ""
+        raise TypeError(f"{what}, not {value!r}{advice}") from None
+
+
+def checked(name: str, unit: str, values: Any, shape: tuple[int, ...]) -> Array:
     """Return numbers as the extension takes them: float64 in rows.
 
     Raises:
@@ -27,14 +47,43 @@ def checked(name: str, unit: str, values: Any, shape: tuple[int, ...]) -> Array 
         TypeError: no real numbers
     """
     if values is None:
-        return None
+        raise TypeError(f"{name} are real numbers, not None")
     if any(hasattr(values, mark) for mark in _MARKS_OF_UNITS):
         raise ValueError(f"{name} are plain numbers in {unit}; take the unit off first")
     if np.ma.is_masked(values):
         raise ValueError(f"{name} have masked elements; every disc needs a number")
-    array: npt.NDArray[Any] = np.asarray(values)
+    try:
+        array: npt.NDArray[Any] = np.asarray(values)
+    except ValueError:
+        raise ValueError(f"{name} have the shape {shape}, and rows of one length") from None
     if array.dtype.kind not in "biuf":
         raise TypeError(f"{name} are real numbers, not {array.dtype}")
     if array.shape != shape:
         raise ValueError(f"{name} have the shape {shape}, not {array.shape}")
     return np.ascontiguousarray(array, dtype=np.float64)
+
+
+_OF_A_RANK = re.compile(r"rank (\d+): (TypeError|ValueError): (.*)", re.DOTALL)
+
+
+def agree_on(core: _core.Core, error: TypeError | ValueError | None) -> None:
+    """Raise the error of the first rank that has one, on all ranks. Collective.
+
+    Otherwise ranks without an error would wait in the next call for the one that has left it.
+
+    Raises:
+        TypeError, ValueError: as on that rank
+        SceneError: ranks make different calls
+    """
+    if core.ranks == 1:
+        if error is not None:
+            raise error
+        return
+    try:
+        core.agree_on([] if error is None else [f"{type(error).__name__}: {error}"])
+    except SceneError as found:
+        match = _OF_A_RANK.fullmatch(found.lines[0])
+        if match is None:
+            raise
+        kind = TypeError if match[2] == "TypeError" else ValueError
+        raise kind(f"{match[3]} (on rank {match[1]})") from error

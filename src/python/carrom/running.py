@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 import sys
 from collections.abc import Sequence
@@ -86,7 +87,8 @@ def run(
         try:
             log = execute(place, words, lines, ranks, program, launcher, progress)
         except InputError as error:
-            error.put_in_words(lambda line: with_arguments(line, flattened(overrides)))
+            names = inspect.signature(run).parameters
+            error.put_in_words(lambda line: with_arguments(line, flattened(overrides), names))
             if file.text is not None and sys.version_info >= (3, 11):
                 numbered = enumerate(file.text.splitlines(), 1)
                 text = "\n".join(f"{n:4} {line}" for n, line in numbered)

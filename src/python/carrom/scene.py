@@ -104,6 +104,19 @@ def to_toml(scene: Mapping[str, Any]) -> str:
     return "\n".join(_table_lines((), nested(scene))) + "\n"
 
 
+def keys_of_lines(text: str) -> list[str]:
+    """Return the key, with dots, that stands on each line of what `to_toml` has written."""
+    keys: list[str] = []
+    table = ""
+    for line in text.splitlines():
+        if line.startswith("["):
+            table = line.strip("[]")
+            keys.append(table)
+        else:
+            keys.append(".".join(filter(None, (table, line.partition(" = ")[0]))))
+    return keys
+
+
 def _table_lines(path: tuple[str, ...], table: Mapping[str, Any]) -> list[str]:
     plain = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
     tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}

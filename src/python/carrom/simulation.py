@@ -8,7 +8,6 @@ What it gives are copies: they cannot be written to, so that `sim.positions[0] =
 from __future__ import annotations
 
 import math
-import operator
 import os
 import warnings
 from collections.abc import Callable
@@ -25,21 +24,23 @@ from carrom.core_module import load
 from carrom.destinations import refuse_owned
 from carrom.disc_arrays import Array
 from carrom.errors import CarromError, SceneError
-from carrom.given_arrays import checked, locked
+from carrom.given_arrays import agree_on, checked, locked, whole
 from carrom.guarded import Guarded
-from carrom.held_core import HeldCore, check_place
+from carrom.held_core import HeldCore
 from carrom.launching import CarromWarning, ProgressLike
 from carrom.live_report import Changes, facts_to_show, report_of
 from carrom.live_results import Averages, LiveTables
 from carrom.memory_frame import LocalDiscs, MemoryFrame
 from carrom.progress import progress_display, show_end
-from carrom.scene import SceneLike, flattened, set_words
-from carrom.simulation_source import add_up, checkpoint_of, handle_of, source_of
+from carrom.scene import SceneLike
+from carrom.simulation_source import add_up, core_of
 from carrom.stepping import advance
-from carrom.words import with_arguments
 
 if TYPE_CHECKING:
     from carrom import _core
+
+_UNITS = {"positions": "lengths", "velocities": "lengths per step", "spins": "radians per step"}
+"""What can be changed, and its unit."""
 
 Action = Callable[["Simulation"], object]
 _A = TypeVar("_A", bound=Action)
@@ -83,22 +84,10 @@ class Simulation(Guarded):
             SceneError: the scene or the checkpoint is wrong; the message has all problems
             MissingPackageError: the extension is not there
         """
-        if threads is not None and operator.index(threads) < 1:
+        if threads is not None and whole("threads must be a whole number", threads) < 1:
             raise ValueError(f"threads must be at least 1, not {threads}")
-        core = load()
-        check_place(core)
         self._comm = comm
-        handle = None if comm is None else handle_of(comm, core)
-        try:
-            if (path := checkpoint_of(scene)) is not None:
-                made = core.from_checkpoint(path, set_words(overrides), threads or 0, handle)
-            else:
-                text, is_file, words = source_of(scene, overrides)
-                made = core.new(text, is_file, words, threads or 0, handle)
-        except SceneError as error:
-            error.put_in_words(lambda line: with_arguments(line, flattened(overrides)))
-            raise
-        self._begin(made)
+        self._begin(core_of(scene, threads, comm, overrides))
 
     def _begin(self, made: _core.Core) -> None:
         self._held = HeldCore(made, load())
@@ -163,7 +152,7 @@ class Simulation(Guarded):
         """
         if self._is_running:
             raise CarromError("an action cannot run the simulation that calls it; take sim.copy()")
-        n = operator.index(steps)
+        n = whole("run takes a whole number of steps", steps)
         end = self.step + n
         if n < 0 or end > self.last_step:
             raise SceneError(
@@ -289,19 +278,28 @@ class Simulation(Guarded):
                 discs would overlap; nothing is changed then
             ValueError: an array has another shape, a unit or masked elements
             TypeError: an array has no real numbers
+
+        On several ranks all of them raise the error of the first rank that has one.
         """
-        given = {
-            "positions": checked("positions", "lengths", positions, (self.n_discs, 2)),
-            "velocities": checked("velocities", "lengths per step", velocities, (self.n_discs, 2)),
-            "spins": checked("spins", "radians per step", spins, (self.n_discs,)),
-        }
-        self._core.change(**given)
-        self._changes.note((name for name in given if given[name] is not None), self.step)
+        given = {"positions": positions, "velocities": velocities, "spins": spins}
+        self._change({name: values for name, values in given.items() if values is not None})
 
     def _set(self, name: str, values: npt.ArrayLike) -> None:
-        if values is None:
-            raise TypeError(f"{name} are real numbers, not None")
-        self.change(**{name: values})
+        self._change({name: values})
+
+    def _change(self, given: dict[str, npt.ArrayLike]) -> None:
+        core = self._core
+        arrays: dict[str, Array | None] = dict.fromkeys(_UNITS)
+        wrong: TypeError | ValueError | None = None
+        try:
+            for name, values in given.items():
+                shape = (self.n_discs,) if name == "spins" else (self.n_discs, 2)
+                arrays[name] = checked(name, _UNITS[name], values, shape)
+        except (TypeError, ValueError) as error:
+            wrong = error
+        agree_on(core, wrong)
+        core.change(**arrays)
+        self._changes.note(given, self.step)
 
     @property
     def local(self) -> LocalDiscs:

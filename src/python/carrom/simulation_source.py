@@ -6,15 +6,30 @@ from __future__ import annotations
 import contextlib
 import os
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from carrom.checkpoints import Checkpoint
+from carrom.core_module import load
 from carrom.disc_arrays import Array
-from carrom.errors import CarromError
+from carrom.errors import CarromError, SceneError
+from carrom.held_core import check_place
 from carrom.launching import CarromWarning
-from carrom.scene import flattened, is_text, merged, parsed, set_words, to_toml, with_absolute_files
+from carrom.scene import (
+    flattened,
+    is_text,
+    keys_of_lines,
+    merged,
+    parsed,
+    set_words,
+    to_toml,
+    with_absolute_files,
+)
+from carrom.words import with_arguments, with_keys, with_lines
+
+if TYPE_CHECKING:
+    from carrom import _core
 
 MOST_STEPS = 1_000_000
 """The last step of a scene without `time.steps`."""
@@ -32,16 +47,30 @@ def checkpoint_of(scene: Any) -> str | None:
     return os.fspath(path) if path.suffix == ".h5" or path.is_dir() else None
 
 
-def source_of(scene: Any, overrides: Mapping[str, Any]) -> tuple[str, bool, list[str]]:
-    """Return the text or the path of a scene, which of them it is, and settings on top."""
+class Source(NamedTuple):
+    """A scene as the extension takes it."""
+
+    text: str
+    """TOML, or the path of a file"""
+    is_file: bool
+    settings: list[str]
+    """KEY=VALUE, on top of the text"""
+    in_words: Callable[[str], str]
+    """Says where the scene is wrong: by a key of a dictionary, by a line of a text"""
+
+
+def source_of(scene: Any, overrides: Mapping[str, Any]) -> Source:
+    """Return the scene of a dictionary, a text or a path, with keys set."""
     words = set_words(overrides)
     if isinstance(scene, Mapping):
         whole = merged(scene, overrides)
         text = to_toml(with_absolute_files(whole))
-        return text, False, _for_this_process(flattened(whole))
+        keys = keys_of_lines(text)
+        settings = _for_this_process(flattened(whole))
+        return Source(text, False, settings, lambda line: with_keys(line, keys))
     if is_text(scene):
-        known = flattened(parsed(scene, "scene.toml", words))
-        return scene, False, words + _for_this_process(known)
+        known = flattened(parsed(scene, "the scene's text", words))
+        return Source(scene, False, words + _for_this_process(known), with_lines)
     if not isinstance(scene, (str, os.PathLike)):
         raise TypeError(f"a scene is a dictionary, a path or TOML text, not {scene!r}")
     path = Path(scene)
@@ -50,7 +79,26 @@ def source_of(scene: Any, overrides: Mapping[str, Any]) -> tuple[str, bool, list
         with contextlib.suppress(OSError, UnicodeDecodeError, CarromError):
             text = path.read_text(encoding="utf-8")
             known = flattened(parsed(text, path.name, words))
-    return os.fspath(path), True, words + _for_this_process(known)
+    return Source(os.fspath(path), True, words + _for_this_process(known), str)
+
+
+def core_of(scene: Any, threads: int | None, comm: Any, overrides: Mapping[str, Any]) -> _core.Core:
+    """Begin with a scene or a checkpoint, as `carrom.Simulation` does."""
+    core = load()
+    check_place(core)
+    handle = None if comm is None else handle_of(comm, core)
+    in_words: Callable[[str], str] = str
+    try:
+        if (path := checkpoint_of(scene)) is not None:
+            made = core.from_checkpoint(path, set_words(overrides), threads or 0, handle)
+        else:
+            text, is_file, settings, in_words = source_of(scene, overrides)
+            made = core.new(text, is_file, settings, threads or 0, handle)
+    except SceneError as error:
+        known, names = flattened(overrides), ("threads", "comm")
+        error.put_in_words(lambda line: with_arguments(in_words(line), known, names))
+        raise
+    return cast("_core.Core", made)
 
 
 def _for_this_process(known: Mapping[str, Any]) -> list[str]:
@@ -68,7 +116,7 @@ def _for_this_process(known: Mapping[str, Any]) -> list[str]:
             f"{', '.join(asked)}: a simulation in this process writes no files but those of "
             "sim.checkpoint; carrom.run does",
             CarromWarning,
-            stacklevel=4,
+            stacklevel=5,
         )
     return [] if "time.steps" in known else [f"time.steps={MOST_STEPS}"]
 

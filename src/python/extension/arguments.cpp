@@ -61,6 +61,14 @@ Core core_from_checkpoint(const std::string& path, const std::vector<std::string
     return {std::move(session), lines, std::move(simulation)};
 }
 
+void agree_on(const Core& core, const std::vector<std::string>& problems) {
+    const nb::gil_scoped_release others_run;
+    std::vector<Problem> mine;
+    for (const std::string& text : problems)
+        mine.push_back({"rank " + std::to_string(core.session->rank()), 0, text});
+    core.session->agree_on(mine);
+}
+
 void change(Core& core, std::optional<GivenPairs> positions, std::optional<GivenPairs> velocities,
             std::optional<GivenNumbers> spins) {
     const std::uint64_t n = core.simulation.scene().n_discs;

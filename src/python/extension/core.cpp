@@ -87,6 +87,8 @@ void add_methods(nb::class_<Core>& core) {
             "restart_averages",
             [](Core& core) { without_lock([&] { core.simulation.restart_averages(); }); },
             "Forget what has been averaged. Collective.")
+        .def("agree_on", agree_on, "problems"_a,
+             "Raise the problems of all ranks on each rank, if any rank has one. Collective.")
         .def("change", change, "positions"_a.none(), "velocities"_a.none(), "spins"_a.none(),
              "Give this rank's discs other numbers, taken from arrays of all discs. Collective.")
         .def(

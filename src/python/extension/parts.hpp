@@ -70,6 +70,8 @@ Core new_core(const std::string& text, bool is_file, const std::vector<std::stri
               int threads, std::optional<int> communicator);
 Core core_from_checkpoint(const std::string& path, const std::vector<std::string>& settings,
                           int threads, std::optional<int> communicator);
+/// Throws InputError with the problems of all ranks, if any rank has one. **Collective.**
+void agree_on(const Core& core, const std::vector<std::string>& problems);
 void change(Core& core, std::optional<GivenPairs> positions, std::optional<GivenPairs> velocities,
             std::optional<GivenNumbers> spins);
 

@@ -136,7 +136,14 @@ TEST_CASE("changes: numbers and places that cannot be are refused, and nothing c
     CHECK(refused([&](Disc& disc) { disc.vx = nan; }) == "disc 7: has a number that is not finite");
     CHECK(refused([](Disc& disc) { disc.x = 0.5; }).find("or in a wall") != std::string::npos);
     CHECK(refused([](Disc& disc) { disc.y = 60; }).find("outside") != std::string::npos);
-    CHECK(refused([](Disc& disc) { disc.spin = 1; }).find("only rough discs") != std::string::npos);
+    CHECK(refused([](Disc& disc) {
+              disc.spin = 1;
+          }).starts_with("change_discs: discs are smooth, and only rough discs turn"));
+    std::vector<Disc> turning = simulation.discs();
+    for (Disc& disc : turning) disc.spin = 1;
+    const std::string spins = problems_of([&] { simulation.change_discs(turning); });
+    CHECK(spins.find("smooth") != std::string::npos);
+    CHECK(spins.find('\n') == std::string::npos); // one line for all discs
     CHECK(refused([](Disc& disc) { disc.id = 8; }).find("each of this rank's") !=
           std::string::npos);
     std::vector<Disc> all = simulation.gathered_discs();

@@ -275,6 +275,9 @@ TEST_CASE("ranks that do different things all get an error") {
                            else
                                static_cast<void>(simulation.totals());
                        }).find("different calls") != std::string::npos));
+    const std::vector<Problem> mine(is_odd ? 1 : 0, Problem{"velocities", 0, "have two columns"});
+    CHECK(problems_of([&] { session.agree_on(mine); }) ==
+          (is_alone ? "" : "velocities: have two columns"));
     simulation.advance_to(3);
     CHECK(simulation.step() == 3);
 }

@@ -343,6 +343,9 @@ TEST_CASE("misspelt keys name the nearest known one") {
         CAPTURE(wrong);
         CHECK(mentions(problems_in(good, {wrong}), "did you mean '" + right + "'?"));
     }
+    // An inner key has the same name: effects.obstacles.discs
+    CHECK(mentions(problems_in(std::string(good) + "[disc]\ncount = 3\n"),
+                   "no such key 'disc'; did you mean 'discs'?"));
 }
 
 TEST_CASE("where no known key is near none is guessed: those that there are get listed") {

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`carrom.Simulation` on two ranks: mistakes of one rank."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+from conftest import PERIODIC, gas
+
+import carrom
+
+pytestmark = pytest.mark.usefixtures("extension")
+
+
+def on_two_ranks(code: str, folder: Path) -> list[str]:
+    """Run a script on two ranks, and return the lines that they print."""
+    pytest.importorskip("mpi4py", reason="mpi4py is not installed")
+    try:
+        launcher = carrom.program.find_launcher()
+    except carrom.ProgramNotFoundError as error:
+        pytest.skip(str(error))
+    package = str(Path(carrom.__file__).parents[1])
+    environment = carrom.launching.environment(99) | {"PYTHONPATH": package}
+    (folder / "ranks.py").write_text(textwrap.dedent(code), encoding="utf-8")
+    command = [launcher, "-n", "2", sys.executable, "ranks.py"]
+    done = subprocess.run(
+        command, capture_output=True, text=True, env=environment, cwd=folder, timeout=300
+    )
+    if "two MPI libraries" in done.stderr:
+        pytest.skip("mpi4py is of another MPI library")
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+ONE_WRONG_ARRAY = f"""
+import numpy as np
+from mpi4py import MPI
+import carrom
+
+comm = MPI.COMM_WORLD
+sim = carrom.Simulation({gas(steps=100, **PERIODIC)!r}, threads=1, comm=comm)
+sim.run(3)
+before = sim.state_hash
+good = -sim.velocities
+nan = good * np.nan
+wrong = [good[:5], good + 1j, None, np.ma.masked_less(good, 0), "fast", [[1, 2], [3]], nan]
+for rank in (0, 1):
+    for values in wrong:
+        try:
+            sim.velocities = values if comm.rank == rank else good
+        except (TypeError, ValueError) as error:
+            heard = comm.allgather((type(error).__name__, str(error)))
+            assert heard[0] == heard[1], heard
+            if comm.rank == 0:
+                print(heard[0][0], str(error).splitlines()[0], flush=True)
+        else:
+            raise SystemExit("no error")
+        assert sim.state_hash == before
+sim.velocities = good
+sim.run(3)
+alone = carrom.Simulation({gas(steps=100, **PERIODIC)!r}, threads=1, comm=MPI.COMM_SELF)
+alone.run(3)
+alone.velocities = -alone.velocities
+alone.run(3)
+assert sim.state_hash == alone.state_hash
+"""
+
+
+def test_one_wrong_array_is_an_error_of_all_ranks(tmp_path: Path) -> None:
+    lines = on_two_ranks(ONE_WRONG_ARRAY, tmp_path)
+    assert len(lines) == 14
+    for rank in (0, 1):
+        of_rank = lines[7 * rank : 7 * rank + 7]
+        assert of_rank[0] == (
+            f"ValueError velocities have the shape (60, 2), not (5, 2) (on rank {rank})"
+        )
+        assert of_rank[1].startswith("TypeError velocities are real numbers, not complex128 (on")
+        assert of_rank[2] == f"TypeError velocities are real numbers, not None (on rank {rank})"
+        assert of_rank[3].startswith("ValueError velocities have masked elements")
+        assert of_rank[4].startswith("TypeError velocities are real numbers, not <U4")
+        assert of_rank[5].startswith("ValueError velocities have the shape (60, 2), and rows")
+        assert re.match(r"SceneError disc \d+: has a number that is not finite", of_rank[6])
