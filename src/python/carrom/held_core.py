@@ -13,12 +13,15 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from carrom.actions import Actions
 from carrom.errors import CarromError
 
 if TYPE_CHECKING:
     from carrom import _core
+
+_C = TypeVar("_C", bound="Closable")
 
 _left: list[_core.Core] = []
 """Simulations that other threads have let go of; `list` is safe to use from several threads."""
@@ -46,20 +49,78 @@ class HeldCore:
 
     def __init__(self, core: _core.Core, module: Any) -> None:
         """Take a simulation that was just made, and end those that other threads have left."""
-        self._core, self._module = core, module
+        self._core: _core.Core | None = core
+        self._module = module
         end_left()
 
     def use(self) -> _core.Core:
-        """Return the simulation, if this thread may use it."""
+        """Return the simulation, if this thread may use it.
+
+        Raises:
+            CarromError: this is another thread or process, or the simulation is closed
+        """
         check_place(self._module)
+        if self._core is None:
+            raise CarromError(
+                "the simulation is closed; begin a new one, or keep a sim.copy() or a checkpoint "
+                "before sim.close()"
+            )
         return self._core
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether `close` was called."""
+        return self._core is None
+
+    def close(self) -> None:
+        """End the simulation now."""
+        check_place(self._module)
+        self._core = None
+        end_left()
 
     def __del__(
         self, this_thread: Callable[[], int] = threading.get_ident, left: list[_core.Core] = _left
     ) -> None:
         # Names of modules may be gone when Python ends, arguments are not.
-        if this_thread() != self._module.thread:
+        if self._core is not None and this_thread() != self._module.thread:
             left.append(self._core)
+
+
+class Closable:
+    """What a user ends by `close()` or `with`: a held simulation, and the actions on it."""
+
+    _held: HeldCore
+    _is_running: bool
+    _actions: Actions[Any]
+
+    @property
+    def _core(self) -> _core.Core:
+        return self._held.use()
+
+    def close(self) -> None:
+        """End the simulation now, and free what it holds; a second call does nothing.
+
+        This frees the memory of all discs and tables. With `comm` it also frees the communicators
+        that Carrom has made from it, once all copies of the simulation are closed, too; so all
+        ranks have to make the call. MPI itself ends with the process, because it cannot begin
+        twice. Arrays, frames, tables and averages that were taken before stay usable, and so do
+        facts of the scene such as `sim.masses`. Other uses of the simulation raise a `CarromError`.
+        Without `close` the same is freed when Python lets go of the simulation.
+
+        Raises:
+            CarromError: an action of the simulation makes the call
+        """
+        if self._is_running:
+            raise CarromError("an action cannot close the simulation that calls it")
+        self._held.close()
+        self._actions = Actions()
+
+    def __enter__(self: _C) -> _C:
+        self._held.use()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
 
 def end_left() -> None:

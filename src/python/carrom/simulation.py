@@ -26,7 +26,7 @@ from carrom.disc_arrays import Array
 from carrom.errors import CarromError, SceneError
 from carrom.given_arrays import agree_on, checked, locked, whole
 from carrom.guarded import Guarded
-from carrom.held_core import HeldCore
+from carrom.held_core import Closable, HeldCore
 from carrom.launching import CarromWarning, ProgressLike
 from carrom.live_report import Changes, facts_to_show, report_of
 from carrom.live_results import Averages, LiveTables
@@ -46,11 +46,12 @@ Action = Callable[["Simulation"], object]
 _A = TypeVar("_A", bound=Action)
 
 
-class Simulation(Guarded):
+class Simulation(Closable, Guarded):
     """A scene as it moves forward in time, in this process.
 
     `sim.run(100)` steps, `sim.positions` are arrays, and `sim.velocities = -sim.velocities` turns
     all discs round. All calls come from the thread that made the first simulation.
+    `with carrom.Simulation(scene) as sim:` closes it at the end, as `sim.close()` does.
 
     Attributes:
         method: "event-driven" or "time-stepped"
@@ -107,10 +108,6 @@ class Simulation(Guarded):
             species=species,
         )
         self._warn()
-
-    @property
-    def _core(self) -> _core.Core:
-        return self._held.use()
 
     def _warn(self) -> None:
         for line in self._core.taken_lines():
@@ -182,6 +179,7 @@ class Simulation(Guarded):
         Actions of one step are called in the order in which they were added. Without `action` it
         is a decorator. Returns the action, for `forget`.
         """
+        self._held.use()
         if action is None:
             return lambda function: self.every(interval, function)
         self._actions.add(interval, action)
@@ -392,7 +390,10 @@ class Simulation(Guarded):
         return twin
 
     def __repr__(self) -> str:
-        return f"<Simulation of {self.n_discs} discs, step {self.step} of {self.last_step}>"
+        state = "closed" if self._held.is_closed else f"step {self.step} of {self.last_step}"
+        return f"<Simulation of {self.n_discs} discs, {state}>"
 
     def _repr_html_(self) -> str:
+        if self._held.is_closed:
+            return display.facts("simulation", {"discs": self.n_discs, "state": "closed"})
         return display.facts("simulation", facts_to_show(self)) + display.picture(self.frame)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`carrom.Simulation` on two ranks: mistakes of one rank."""
+"""`carrom.Simulation` on two ranks: mistakes of one rank, and the end."""
 
 from __future__ import annotations
 
@@ -85,3 +85,29 @@ def test_one_wrong_array_is_an_error_of_all_ranks(tmp_path: Path) -> None:
         assert of_rank[4].startswith("TypeError velocities are real numbers, not <U4")
         assert of_rank[5].startswith("ValueError velocities have the shape (60, 2), and rows")
         assert re.match(r"SceneError disc \d+: has a number that is not finite", of_rank[6])
+
+
+ENDS = f"""
+from mpi4py import MPI
+import carrom
+
+comm = MPI.COMM_WORLD
+with carrom.Simulation({gas()!r}, threads=1, comm=comm) as sim:
+    sim.run(2)
+    twin = sim.copy()
+twin.run(3)
+twin.close()
+for _ in range(300):  # MPI has some thousand communicators at most
+    with carrom.Simulation({gas(count=4)!r}, threads=1, comm=comm) as sim:
+        sim.run(1)
+sim = carrom.Simulation({gas()!r}, threads=1, comm=comm)
+sim.run(5)
+steps = comm.gather((sim.step, repr(twin)))
+if comm.rank == 0:
+    print(steps)
+"""
+
+
+def test_ranks_close_together(tmp_path: Path) -> None:
+    closed = (5, "<Simulation of 60 discs, closed>")
+    assert on_two_ranks(ENDS, tmp_path) == [repr([closed, closed])]
