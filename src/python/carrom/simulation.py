@@ -50,7 +50,8 @@ class Simulation(Closable, Guarded):
     """A scene as it moves forward in time, in this process.
 
     `sim.run(100)` steps, `sim.positions` are arrays, and `sim.velocities = -sim.velocities` turns
-    all discs round. All calls come from the thread that made the first simulation.
+    all discs round; they retrace their paths for some 25 collisions of each disc, until roundings
+    have grown too far. All calls come from the thread that made the first simulation.
     `with carrom.Simulation(scene) as sim:` closes it at the end, as `sim.close()` does.
 
     Attributes:

@@ -39,5 +39,8 @@ def test_the_first_block_of_each_page_runs(
         assert f"collide {collisions} times" in text
         assert float(energy) == pytest.approx(200)
         assert printed[1] == "True"
+    if page == "docs/reference/python.md":
+        assert float(printed[0].split()[-1]) == pytest.approx(2.3e-9, rel=0.05)
+        assert "to 2e-9 lengths" in text
     if page == "docs/how-to/python-loop.md":
         assert abs(float(printed[0]) - 1) < 0.01, "the energy of discs and springs"

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`carrom.Simulation` on two ranks: mistakes of one rank, and the end."""
+"""`carrom.Simulation` on two ranks: mistakes of one rank, the end, and the script of a page."""
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
@@ -15,6 +16,8 @@ from conftest import PERIODIC, gas
 import carrom
 
 pytestmark = pytest.mark.usefixtures("extension")
+
+SOURCE = Path(os.environ.get("CARROM_SOURCE_DIR", str(Path(__file__).parents[3])))
 
 
 def on_two_ranks(code: str, folder: Path) -> list[str]:
@@ -111,3 +114,13 @@ if comm.rank == 0:
 def test_ranks_close_together(tmp_path: Path) -> None:
     closed = (5, "<Simulation of 60 discs, closed>")
     assert on_two_ranks(ENDS, tmp_path) == [repr([closed, closed])]
+
+
+def test_the_script_of_the_page_runs_on_two_ranks(tmp_path: Path) -> None:
+    text = (SOURCE / "docs/how-to/python-loop.md").read_text(encoding="utf-8")
+    section = text[text.index("## Several ranks") :]
+    script, printed = re.search(
+        r"^```python\n(.*?)^```.*?^```text\n(.*?)^```", section, re.M | re.S
+    ).groups()  # type: ignore[union-attr]
+    assert "mpiexec -n 2 python3 ranks.py" in section
+    assert on_two_ranks(script, tmp_path) == printed.splitlines()
