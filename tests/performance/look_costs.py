@@ -9,6 +9,8 @@
   tests/performance/look_costs.py LOOK_COSTS --shapes    the slow gas with 1e4 discs on one and two
                                                          threads and on two ranks, which mpiexec or
                                                          the variable CARROM_MPIEXEC starts
+  tests/performance/look_costs.py LOOK_COSTS --clock     the same by the clock: medians of seven
+                                                         pairs of runs, some five minutes
 
 valgrind counts (callgrind, without its cache model) what happens below `step_and_look` of the
 program look_costs: 64 steps on one thread, after 64 others, with the averages that every run takes.
@@ -21,12 +23,15 @@ import argparse
 import os
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
+import time
 from typing import NamedTuple
 
 STEPS, MOST = 64, 1.3
+TIMED_STEPS, PAIRS = 4000, 7
 SIDES = ("left", "right", "bottom", "top")
 METHODS = ("event-driven", "time-stepped")
 
@@ -115,23 +120,63 @@ def compare(program: str, scene: str, method: str, shape: Shape = Shape()) -> fl
     return ratio
 
 
+def seconds(words: list, shape: Shape) -> float:
+    """Return how long a program takes."""
+    launcher = [os.environ.get("CARROM_MPIEXEC", "mpiexec"), "-n", str(shape.ranks)]
+    begin = time.perf_counter()
+    subprocess.run(
+        [*(launcher if shape.ranks > 1 else []), *words],
+        env={**os.environ, "OMP_NUM_THREADS": str(shape.threads)},
+        stdout=subprocess.DEVNULL,
+        check=True,
+    )
+    return time.perf_counter() - begin
+
+
+def time_pairs(program: str, scene: str, method: str, shape: Shape) -> None:
+    """Print the ratio of the times of runs with and without looks, which take turns."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "scene.toml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(scene)
+
+        def taken(every: int) -> float:
+            starts, whole = (
+                seconds([program, path, str(steps), str(every), f"time.method={method}"], shape)
+                for steps in (0, TIMED_STEPS)
+            )
+            return whole - starts
+
+        pairs = [(taken(0), taken(1)) for _ in range(PAIRS)]
+    ratios = sorted(each / once for once, each in pairs)
+    once = statistics.median(once for once, _ in pairs)
+    print(
+        f"{method}: {once:.2f} s in one call; with a look at each step "
+        f"{statistics.median(ratios):.2f} times as long ({ratios[1]:.2f} to {ratios[-2]:.2f})",
+        flush=True,
+    )
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", metavar="LOOK_COSTS")
     parser.add_argument("--table", action="store_true")
     parser.add_argument("--shapes", action="store_true")
+    parser.add_argument("--clock", action="store_true")
     options = parser.parse_args()
-    if not shutil.which("valgrind"):
+    if not options.clock and not shutil.which("valgrind"):
         print("left out: there is no valgrind")
         return 77
-    if options.shapes:
+    if options.shapes or options.clock:
         for is_periodic in (False, True):
             for shape in (Shape(), Shape(threads=2), Shape(ranks=2)):
                 sides = "periodic sides" if is_periodic else "walls"
                 print(f"{sides}, {shape.ranks} x {shape.threads}")
                 scene = scene_of(10_000, 0.3, 0.1, is_periodic)
                 for method in METHODS:
-                    compare(options.program, scene, method, shape)
+                    (time_pairs if options.clock else compare)(
+                        options.program, scene, method, shape
+                    )
         return 0
     if not options.table:
         ratios = []
