@@ -70,6 +70,8 @@ StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species
     };
     depends_on_x_ = depends(scene.box.x, 0);
     depends_on_y_ = depends(0, scene.box.y);
+    for (const Arc& arc : all_arcs(effects_.fixed_bodies, scene.box))
+        tightest_arc_ = std::min(tightest_arc_, arc.radius);
     acts_at_syncs_ = allowance.acts_at_syncs;
     acts_before_flights_ = allowance.acts_before_flights;
     energy_given_ = energy_given;

@@ -27,6 +27,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -176,6 +177,7 @@ private:
     double total_mass_ = 0, smallest_mass_ = 1;
     /// Largest speed of vibrating walls, and their largest acceleration towards a disc
     double wall_speed_ = 0, wall_pull_ = 0;
+    double tightest_arc_ = std::numeric_limits<double>::infinity(); ///< radius of the smallest arc
     double work_of_images_ = 0; ///< work of images on this rank since the last inspection
     /// Largest speed along y of the discs between sheared sides, now or at the last inspection
     double fastest_up_ = 0;

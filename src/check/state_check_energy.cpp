@@ -266,13 +266,16 @@ double StateCheck::energy_of_way(std::size_t i) const {
            work_on_way(effects_, {unwrapped.x - then.x, unwrapped.y - then.y, species_.of(now.id)});
 }
 
-/// Twice the energy that contacts at rest may add, at the speed ContactGuard::least_departure.
+/// Twice the energy that contacts at rest may add, at the speed ContactGuard::least_departure. A
+/// disc that slides along the inner face of an arc is pressed to it by the bend of its way.
 double StateCheck::resting_gain(const Known& known) const {
     const Acceleration g = effects_.acceleration();
-    const double pull = std::max(g.largest_x(), g.largest_y());
     const SizeAndMass& body = species_.of(known.disc.id);
-    const double leaving =
-        ContactGuard(effects_, body.radius).least_departure(pull + wall_pull_, body.radius);
+    double pull = std::max(g.largest_x(), g.largest_y()) + wall_pull_;
+    const double room = tightest_arc_ - body.radius * size_at(micro_steps_done_);
+    if (may_lose_energy_ && room > 0)
+        pull += 2 * (known.disc.vx * known.disc.vx + known.disc.vy * known.disc.vy) / room;
+    const double leaving = ContactGuard(effects_, body.radius).least_departure(pull, body.radius);
     return 1.01 * body.mass * leaving * leaving * static_cast<double>(known.walls);
 }
 

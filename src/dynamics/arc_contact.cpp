@@ -14,6 +14,11 @@ namespace carrom {
 
 namespace {
 
+/// A disc that slides from a tangent line onto an arc may, by rounding, reach its circle just
+/// before the arc begins. So the inner face goes on for this share of the radius, as a tangent,
+/// which is away from the circle by 5e-15 of the radius at most.
+constexpr double slip = 1e-7;
+
 /// The time at which a flight leaves the circle of radius `reach`; `never` if it does not enter it,
 /// or if the disc is beyond `wall` and moves away.
 double way_out(const ArcFlight& f, double reach, double wall) {
@@ -104,7 +109,8 @@ double arc_contact(const ArcFlight& flight, const DiscSize& size, double arc_rad
                                             size.radius);
     if (in >= 0 && is_there(in)) return in;
     const double out = growing_way_out(flight, size, arc_radius);
-    return out < never && is_there(out) ? out : never;
+    if (!(out < never)) return never;
+    return is_there(out) || is_there(out + slip * arc_radius / std::hypot(wx, wy)) ? out : never;
 }
 
 double falling_arc_contact(const ArcFlight& flight, double gx, double gy, double radius,
@@ -124,7 +130,11 @@ double falling_arc_contact(const ArcFlight& flight, double gx, double gy, double
                                                           begin, end)
                                   : contact_while_rising(path, arc_radius - radius, arc_radius,
                                                          begin, end);
-        if (time < never && is_there(time)) return time;
+        const auto comes_soon = [&] {
+            const double speed = std::hypot(wx + gx * time, wy + gy * time);
+            return !falls && speed > 0 && is_there(time + slip * arc_radius / speed);
+        };
+        if (time < never && (is_there(time) || comes_soon())) return time;
         begin = end;
     }
     return never;

@@ -342,9 +342,9 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     if (from_body.is_hollow) {
         const double along = speed_along();
         if (restitution < 1) pull += along * along / (at.radius - turning.radius);
-        away = std::max(away, least_slope * std::fabs(along));
+        away = std::max(away, outwards + least_slope * std::fabs(along));
     }
-    if (pull > 0) away = std::max(away, guard_.least_departure(pull, turning.radius));
+    if (pull > 0) away = std::max(away, outwards + guard_.least_departure(pull, turning.radius));
     disc.vx += (away - normal) * nx;
     disc.vy += (away - normal) * ny;
     const double square = closing * closing;

@@ -112,8 +112,8 @@ void refuse_in_fixed_bodies(const SceneParameters& scene, const std::vector<Inpu
     const double least = 2 * std::max(2e-12 * scene.radius, 32 * 0x1p-53 * scene.box.longest());
     const char* const remedy =
         scene.groups.empty() ? "move one of them"
-                             : "lattices and compressed discs know nothing of it; move the region "
-                               "of their group, or take generator = \"random\"";
+                             : "lattices and compressed discs of groups do not go around it; give "
+                               "their group a region beside it, or take generator = \"random\"";
     std::vector<Problem> problems;
     for (const InputDisc& disc : discs) {
         const auto overlap = fixed_bodies.deepest_overlap(disc.x, disc.y,

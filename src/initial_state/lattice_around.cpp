@@ -123,8 +123,8 @@ private:
         throw InputError(
             {{scene_.name, 0,
               fmt::format("no lattice of {} discs of radius {} has room between the obstacles; "
-                          "take fewer or smaller discs, or freeze some of a start without "
-                          "obstacles (discs.freeze)",
+                          "take fewer or smaller discs, discs.generator = \"compressed\", or "
+                          "freeze some of a start without obstacles (discs.freeze)",
                           scene_.n_discs, scene_.radius)}});
     }
 

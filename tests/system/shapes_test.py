@@ -154,6 +154,31 @@ class Shapes(ProgramTest):
                 if "grow" in name:
                     self.check_restart("scene.toml", ("--overwrite",), first=30, last=60)
 
+    def test_growing_discs_slide_along_a_round_wall_without_restitution(self):
+        discs = "count = 1\nradius = 1\nlist = [[10, 4, 0.1, 0]]"
+        self.write("slide.toml", ROUND.format(
+            discs=discs, method="event-driven",
+            effects="[effects.obstacles]\nrestitution = 0\n[effects.growth]\nrate = 0.001\n"))
+        self.run_program(1, "run", "slide.toml", "--check", "--report", "r.json")
+        self.assertGreater(self.report("r.json")["wall_collisions"], 10)
+
+    def test_discs_slide_from_the_lines_of_a_stadium_onto_its_arcs(self):
+        """Without restitution they do, and their exact tangents once let one of them out."""
+        self.write("stadium.toml", """
+[box]
+size = [30, 20]
+shape = "stadium"
+[discs]
+count = 40
+radius = 0.5
+speed = 0.1
+[time]
+steps = 100
+[effects.obstacles]
+restitution = 0
+""")
+        self.run_program(1, "run", "stadium.toml", "--check")
+
     def test_the_push_on_a_round_wall_is_the_virial_of_the_gas(self):
         """The virial theorem for a smooth wall that centres touch at the distance R: push R is
         2 N kT and the sum of impulse times distance of pairs, 2 P A with the report's P.
@@ -316,6 +341,8 @@ largest_distance = 7
                  'output.measurements.quantities=["wall_pressure"]'),
                 ("round.toml", "overlaps the round wall", "discs.list=[[1, 1, 0, 0]]",
                  "discs.count=1"),
+                ("round.toml", "obstacles that rub or slide", "effects.growth.rate=0.001",
+                 "effects.obstacles.tangential_restitution=0.5"),
                 ("points.toml", "two points never meet", "effects.contact.kind=elastic"),
                 ("points.toml", "only the event-driven method", "time.method=time-stepped"),
                 ("several.toml", "four numbers", "effects.obstacles.arcs=[[5, 5, 2, 90]]"),

@@ -35,11 +35,11 @@ void warn_of_units(const RunOptions& options, const SceneParameters& scene,
     if (!warning.empty()) options.messages.warn("{}: warning: {}\n", scene.name, warning);
 }
 
-/// Warns of closed regions in which random insertion may have put discs unnoticed. Listed discs are
+/// Warns of closed regions in which a generator may have put discs unnoticed. Listed discs are
 /// where their author wants them, so they give no warning. **Collective.**
 void warn_of_closed_regions(const RunOptions& options, const SceneParameters& scene,
                             const std::vector<InputDisc>& discs, const Communicator& ranks) {
-    if (scene.generator != Generator::random) return;
+    if (scene.generator == Generator::file) return;
     const ShutInDiscs found = find_shut_in(scene, discs, ranks);
     if (found.n_discs == 0) return;
     options.messages.warn("{}: warning: {} of {} discs begin in {} region{} that effects.obstacles "

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/surface_table.hpp"
 #include "scene/boundaries/boundary.hpp"
 #include "scene/key_members.hpp"
 #include "scene/rule_parts.hpp"
@@ -34,12 +35,20 @@ std::vector<Rule> rules_of_growth() {
                  return has_growing_discs(s) &&
                         (is_rough(s) || s.effects.contact.kind == ContactKind::none);
              }),
-        rule("growing discs", "a force in flight or drag",
+        rule("growing discs", "gravity or another force in flight, or drag",
              "growing discs need straight flights, on which contacts are found",
              {"effects.growth.rate"},
              [](const SceneParameters& s) {
                  return has_growing_discs(s) && !s.effects.are_flights_free();
              }),
+        rule(
+            "growing discs", "obstacles that rub or slide",
+            "growing discs need smooth surfaces, because a surface that grows pushes only outwards",
+            {"effects.growth.rate"},
+            [](const SceneParameters& s) {
+                return has_growing_discs(s) && has_fixed_bodies(s) &&
+                       does_rub(s.effects, SurfaceContacts::fixed_bodies);
+            }),
         rule("growing discs", "sides that are no smooth walls at rest, and not periodic",
              "growing discs need sides that stay where they are, do not rub and let nothing out",
              {"effects.growth.rate"},
