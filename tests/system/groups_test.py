@@ -233,7 +233,7 @@ region = [10, 0, 20, 10]
                          '[0, 0, 20, 20]\ngenerator = "lattice"\n')
         inside = "effects.obstacles.discs=[[10, 10, 3]]"
         run = self.run_program(3, "run", "pins.toml", "--set", inside, code=2,
-                               says=("overlaps fixed disc 1 by", "move the region of their group"))
+                               says=("overlaps fixed disc 1 by", "a region beside it"))
         self.assertEqual(run.err.count("overlaps"), 1, run.err)
         beside = "effects.obstacles.discs=[[30, 30, 3]]"
         self.run_program(3, "run", "pins.toml", "--set", beside, "--check", "--quiet", "--steps", 5)
