@@ -135,7 +135,7 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
     if (have_open_sides_ && have_any_moved()) return {};
     const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
     if (!(scale > 0) || drift <= allowed || known_.empty() || std::isinf(expected)) return {};
-    // No single disc is the cause, so the lowest disc that collided is reported.
+    // No single disc is the cause. Each rank names its lowest disc that collided, or its first.
     return {Invariant::energy, 0, mine.empty() ? first_id_ : mine.front().disc, drift / scale,
             allowed / scale};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the images of own discs that a rank of a periodic box uses: those in the box.
+// In periodic boxes, gives each own disc of a rank the image that lies in the box.
 #include "domain/strip_discs.hpp"
 #include "domain/transfer_in_parts.hpp"
 

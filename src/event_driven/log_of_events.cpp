@@ -36,7 +36,7 @@ void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome& outcome, std::s
     this->pair_followers_.give(of_parts(&BlockPart::n_pairs, outcome.pairs.all()));
 }
 
-// These members are called from event_driven_engine.cpp, where the rest of the class is compiled.
+// This member is called from event_driven_engine.cpp, so it is instantiated here.
 #define CARROM_DEFINE(Dynamics)                                                                    \
     template void EventDrivenEngine<Dynamics>::log_events(const BlockOutcome&, std::size_t,        \
                                                           std::size_t);

@@ -16,8 +16,8 @@ namespace carrom::h5 {
 using Shape = std::vector<std::optional<hsize_t>>;
 
 /// Opens a data set for reading. It must have the given shape, if there is one, and contain numbers
-/// or a text of fixed length. Its bytes must lie in this file, or in large enough segments in this
-/// file's folder. Throws FileError otherwise.
+/// or a text of fixed length. Its bytes must lie in this file, or in large enough segments below
+/// this file's folder. Throws FileError otherwise.
 Dataset open_checked(hid_t parent, const std::string& name,
                      const std::optional<Shape>& shape = std::nullopt);
 

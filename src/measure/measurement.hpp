@@ -2,8 +2,8 @@
 // The interface of a measurement. A quantity is one file in src/measure/quantities: its declaration
 // for scenes and pages (scene/quantity.hpp), and the class that samples it.
 //
-// All data are counts, or sums in fixed point (exact_sum.hpp). So the tables have the
-// same bits on every number of ranks and threads, and after a restart.
+// All sums over discs and collisions are counts or in fixed point (exact_sum.hpp). So tables have
+// the same bits on every number of ranks and threads, and after a restart.
 //
 // To add one: copy the file that is most like it, and add its name to the list in
 // src/measure/CMakeLists.txt.

@@ -90,8 +90,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::end_window(bool is_c
     part_ = 0;
 }
 
-/// Chooses a window. Then brings discs to their strips, halo discs to the ranks that need them, and
-/// all of them into cells.
+/// Chooses a window. Then sends discs to the ranks whose domains contain them, and halo discs to
+/// the ranks that need them, and sorts all of them into cells.
 template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n_left) {
     const PhaseClock::Scope scope(phases_, Phase::redistribute);
     if (part_ == 0) {

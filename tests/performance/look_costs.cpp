@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps a scene on OMP_NUM_THREADS threads. All steps are one call, or all positions are read after
-// every few steps, as a program does that analyses a run. look_costs.py counts the instructions
-// below `step_and_look`.
+// Steps a scene on OMP_NUM_THREADS threads, in one call or in short calls. After each short call it
+// reads all positions, like a program that analyses a run. look_costs.py counts the instructions of
+// `step_and_look` and of the functions that it calls.
 //   look_costs SCENE STEPS EVERY [KEY=VALUE ...]    EVERY: steps between reads; 0: no reads
 #include <algorithm>
 #include <cstdio>

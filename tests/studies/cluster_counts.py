@@ -27,7 +27,7 @@ class Counted(NamedTuple):
     collisions: float  # collisions of a disc at the highest density
     micro_steps: float
     packing: float
-    rollbacks: float  # rollbacks per mean distance of discs along borders of blocks
+    rollbacks: float  # rollbacks per length of block borders, in mean distances of discs
     marked: float  # block runs that a rollback repeats
 
 

@@ -121,9 +121,9 @@ on_one_rank() {
     code=$?
 }
 
-# Short writes are no failure, because the next write continues them. A system without further
-# threads is no failure either, because the running threads share the work. (The steps need no
-# second thread.)
+# Short writes are no failure, because the next write continues them. If no thread can be
+# started, the existing threads do all the work, so that is no failure either. (One thread is
+# enough for the steps.)
 scene+=(--threads 1)
 for library in "$short_writes" "$no_threads"; do
     for rank in 0 1; do

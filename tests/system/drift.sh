@@ -26,7 +26,8 @@ for window in 20 500; do
             grep -v '^#' run/measurements/diffusion.csv | sed -n 2p
         done
     done >values
-    # All six agree within four of their errors. The drift alone would add 1 and 24.
+    # The six values of D agree within four of their errors. With the drift they would be larger
+    # by 1 for the short window and by 24 for the long one.
     awk -F, '{ d[NR] = $1; e[NR] = $2 }
         END { for (i in d) for (k in d) if ((d[i] - d[k]) ^ 2 > 16 * (e[i] ^ 2 + e[k] ^ 2)) exit 1
               exit NR != 6 }' values || complain "window $window: $(cat values)"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Compares the output of two small scenes byte by byte with lines that were computed by hand, as
-# expected/README.md shows. All numbers in them are exact in binary. From a file and from standard
-# input, on one and on several ranks.
+# expected/README.md shows. All numbers in them are exact in binary. The scenes are read from
+# a file and from standard input, and run on one rank and on several.
 source "$(dirname "$0")/common.sh"
 expected=$CARROM_SOURCE_DIR/tests/system/expected
 

@@ -78,7 +78,7 @@ expect_code 0 '--overwrite'
     complain "older checkpoints: $(ls kept/checkpoints)"
 [ -e kept/notes.txt ] || complain 'a foreign file is gone'
 
-# Symbolic links: the lock must hold, and no victim is written.
+# Symbolic links: a run refuses one in place of its lock file, and writes through none to `victim`.
 mkdir linked
 echo victim >victim
 ln -s ../victim linked/.carrom.lock

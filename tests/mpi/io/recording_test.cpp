@@ -178,7 +178,7 @@ TEST_CASE("going on to another last step gives its frames the box of that step")
     Trajectory first(path, layout_with(64), world);
     first.begin();
     for (std::int64_t step = 0; step < 300; ++step)
-        first.append(step, share(40, step, world), 1.5); // more than a chunk of labels
+        first.append(step, share(40, step, world), 1.5); // many frames
     first.commit();
     std::vector<std::int64_t> steps(300);
     std::iota(steps.begin(), steps.end(), 0);

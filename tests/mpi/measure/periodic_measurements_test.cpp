@@ -270,8 +270,8 @@ TEST_CASE("measurements: in a periodic box, g at contact is that of the bulk's p
             mean += g[50 + k] / 5;
             slope += (static_cast<double>(k) - 2) * g[50 + k] / 10; // slope for each bin
         }
-        // Five bins have some 6700 pairs each. The end of the line through them has an error of
-        // about 1 %, and the curvature that it ignores is 0.5 %.
+        // Each of the five bins has some 6700 pairs. A straight line through them has an error of
+        // about 1 % at contact, and curvature adds 0.5 %.
         CHECK(mean - 2.5 * slope == Approx(has_contacts ? 1.7719 : 1).epsilon(0.03));
         for (std::size_t k = 0; k < 50 && has_contacts; ++k) CHECK(g[k] == 0);
     }

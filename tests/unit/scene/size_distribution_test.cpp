@@ -20,7 +20,7 @@ SizeDistribution distribution(SizeKind kind, double polydispersity) {
     return sizes;
 }
 
-/// The probability of a smaller radius, without limits.
+/// The probability of a smaller radius in a distribution without smallest and largest radius.
 double probability_below(const SizeDistribution& sizes, double radius) {
     const double s = sizes.polydispersity;
     if (sizes.kind == SizeKind::uniform) return (radius - 1) / (2 * std::sqrt(3.0) * s) + 0.5;

@@ -46,7 +46,7 @@ TEST_CASE("discs listed in the scene must lie in the box and move") {
     const std::string head = "[box]\nsize = 10\n[discs]\nradius = 1\nlist = [\n";
     const std::string tail = "]\n[time]\nsteps = 1\n";
     CHECK(problems_in(head + "[1, 9, 0, 0],\n[1, 9, 0, 0]\n" + tail)
-              .empty()); // discs at two walls that overlap each other
+              .empty()); // discs that overlap each other and touch two walls
     CHECK(
         places_of(problems_in(
             head +
