@@ -63,7 +63,7 @@ def checked(name: str, unit: str, values: Any, shape: tuple[int, ...]) -> Array:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
-_OF_A_RANK = re.compile(r"rank (\d+): (TypeError|ValueError): (.*)", re.DOTALL)
+_OF_A_RANK = re.compile(r"rank (\d+): (TypeError|ValueError|SceneError): (.*)", re.DOTALL)
 
 
 def agree_on(core: _core.Core, error: TypeError | ValueError | None) -> None:
@@ -72,7 +72,7 @@ def agree_on(core: _core.Core, error: TypeError | ValueError | None) -> None:
     Otherwise ranks without an error would wait in the next call for the one that has left it.
 
     Raises:
-        TypeError, ValueError: as on that rank
+        TypeError, ValueError, SceneError: as on that rank
         SceneError: ranks make different calls
     """
     if core.ranks == 1:
@@ -85,5 +85,7 @@ def agree_on(core: _core.Core, error: TypeError | ValueError | None) -> None:
         match = _OF_A_RANK.fullmatch(found.lines[0])
         if match is None:
             raise
-        kind = TypeError if match[2] == "TypeError" else ValueError
-        raise kind(f"{match[3]} (on rank {match[1]})") from error
+        text = f"{match[3]} (on rank {match[1]})"
+        if match[2] == "SceneError":
+            raise SceneError([text], 2) from error
+        raise (TypeError if match[2] == "TypeError" else ValueError)(text) from error

@@ -23,7 +23,7 @@ from carrom.checkpoints import Checkpoint
 from carrom.core_module import load
 from carrom.destinations import refuse_owned
 from carrom.disc_arrays import Array
-from carrom.errors import CarromError, SceneError
+from carrom.errors import CarromError
 from carrom.given_arrays import agree_on, checked, locked, whole
 from carrom.guarded import Guarded
 from carrom.held_core import Closable, HeldCore
@@ -34,7 +34,7 @@ from carrom.memory_frame import LocalDiscs, MemoryFrame
 from carrom.progress import progress_display, show_end
 from carrom.scene import SceneLike
 from carrom.simulation_source import add_up, core_of
-from carrom.stepping import advance
+from carrom.stepping import advance, end_of_run
 
 if TYPE_CHECKING:
     from carrom import _core
@@ -147,19 +147,13 @@ class Simulation(Closable, Guarded):
 
         Raises:
             SceneError: `time.steps` comes before
+            TypeError: `steps` is no whole number
+
+        On several ranks all of them raise the error of the first rank that has one.
         """
         if self._is_running:
             raise CarromError("an action cannot run the simulation that calls it; take sim.copy()")
-        n = whole("run takes a whole number of steps", steps)
-        end = self.step + n
-        if n < 0 or end > self.last_step:
-            raise SceneError(
-                [
-                    f"run({n}) would end at step {end}, and the scene goes from step {self.step} "
-                    f"to time.steps = {self.last_step}"
-                ],
-                2,
-            )
+        end = end_of_run(self._core, steps, self.last_step)
         self._is_running = True
         try:
             with progress_display(progress) as show:

@@ -5,15 +5,42 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from carrom.actions import Actions, Simulated
+from carrom.errors import SceneError
+from carrom.given_arrays import agree_on, whole
 
 if TYPE_CHECKING:
     from carrom import _core
 
 STRETCH = 0.1
 """Seconds between two looks."""
+
+
+def end_of_run(core: _core.Core, steps: Any, last_step: int) -> int:
+    """Return the step at which `run(steps)` ends. Collective.
+
+    Raises:
+        SceneError: it is not from the present step to `last_step`
+        TypeError: `steps` is no whole number
+    """
+    end, wrong = int(core.step), None
+    try:
+        n = whole("run takes a whole number of steps", steps)
+        end += n
+        if n < 0 or end > last_step:
+            raise SceneError(
+                [
+                    f"run({n}) would end at step {end}, and the scene goes from step {core.step} "
+                    f"to time.steps = {last_step}"
+                ],
+                2,
+            )
+    except (TypeError, ValueError) as error:
+        wrong = error
+    agree_on(core, wrong)
+    return end
 
 
 def advance(

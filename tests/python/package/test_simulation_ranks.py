@@ -90,6 +90,49 @@ def test_one_wrong_array_is_an_error_of_all_ranks(tmp_path: Path) -> None:
         assert re.match(r"SceneError disc \d+: has a number that is not finite", of_rank[6])
 
 
+ONE_WRONG_RUN = f"""
+from mpi4py import MPI
+import carrom
+
+comm = MPI.COMM_WORLD
+sim = carrom.Simulation({gas(steps=10)!r}, threads=1, comm=comm)
+for rank in (0, 1):
+    for steps in (2.5, "2", -1, 11):
+        try:
+            sim.run(steps if comm.rank == rank else 2)
+        except (TypeError, carrom.SceneError) as error:
+            heard = comm.allgather((type(error).__name__, str(error)))
+            assert heard[0] == heard[1], heard
+            if comm.rank == 0:
+                print(heard[0][0], str(error), flush=True)
+        else:
+            raise SystemExit("no error")
+        assert sim.step == 0
+try:
+    sim.run(2 + comm.rank)
+except carrom.SceneError as error:
+    if comm.rank == 0:
+        print(error, flush=True)
+sim.run(10)
+"""
+
+
+def test_one_wrong_number_of_steps_is_an_error_of_all_ranks(tmp_path: Path) -> None:
+    lines = on_two_ranks(ONE_WRONG_RUN, tmp_path)
+    assert len(lines) == 9, lines
+    of_rank_0, of_rank_1 = lines[:4], lines[4:8]
+    assert of_rank_0 == [
+        "TypeError run takes a whole number of steps, not 2.5 (on rank 0)",
+        "TypeError run takes a whole number of steps, not '2' (on rank 0)",
+        "SceneError run(-1) would end at step -1, and the scene goes from step 0 to "
+        "time.steps = 10 (on rank 0)",
+        "SceneError run(11) would end at step 11, and the scene goes from step 0 to "
+        "time.steps = 10 (on rank 0)",
+    ]
+    assert of_rank_1 == [line.replace("rank 0", "rank 1") for line in of_rank_0]
+    assert "different" in lines[8]
+
+
 ENDS = f"""
 from mpi4py import MPI
 import carrom
