@@ -13,7 +13,7 @@
                                                          pairs of runs, some five minutes
 
 valgrind counts (callgrind, without its cache model) what happens below `step_and_look` of the
-program look_costs: 64 steps on one thread, after 64 others, with the averages that every run takes.
+program look_costs: 32 steps on one thread, after 64 others, with the averages that every run takes.
 With fewer discs, what a call costs whatever their number counts more. On several threads or ranks
 it counts what all of them do.
 Without valgrind the test is left out, with code 77.
@@ -30,7 +30,7 @@ import tempfile
 import time
 from typing import NamedTuple
 
-STEPS, MOST = 64, 1.3
+STEPS, MOST = 32, 1.3
 TIMED_STEPS, PAIRS = 4000, 7
 SIDES = ("left", "right", "bottom", "top")
 METHODS = ("event-driven", "time-stepped")

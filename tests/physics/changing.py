@@ -97,7 +97,7 @@ SCENES = {
     "glass 0.785": (grown(0.785, 1000, 20000, ["correlations"], ((0.5, 1.0), (0.5, 1.4))), 16,
                     False, ("F_s",)),
 }
-SHORT = {"gas 0.5": 12, "melting 0.69": 6}
+SHORT = {"gas 0.5": 6, "melting 0.69": 4}
 MOST, LEAST = 0.05, 0.7
 COLUMNS = ("order", "psi6", "local_psi6", "slow", "averages", "F_s")
 

@@ -174,7 +174,7 @@ def enskog(program, is_short):
     """
     for packing in (0.02, 0.4) if is_short else (0.02, 0.1, 0.2, 0.3, 0.4, 0.5):
         decays, coefficients = [], []
-        for seed in range(1, 9):
+        for seed in range(1, 5 if is_short else 9):
             near, frequency, kt = correlations(program, packing, 0.05, 10, 25 if is_short else 60,
                                                seed)
             decays.append(first_decay(near["velocity_autocorrelation"]) / frequency)

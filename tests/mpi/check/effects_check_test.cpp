@@ -16,7 +16,7 @@ TEST_CASE("check: nothing is wrong in scenes with effects") {
             if (is_left_to_others(number + (method == Method::time_stepped))) continue;
             if (method == Method::time_stepped && !named.is_for_one) continue;
             TestScene scene = gas_of(named.effects);
-            scene.steps = 60;
+            scene.steps = 30;
             scene.setting.sync_every = 7;
             scene.setting.micro_steps = 2;
             SceneParameters checked = checked_scene(scene, method);
