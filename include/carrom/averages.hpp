@@ -27,8 +27,8 @@ struct Estimate {
     /// Correlation time in steps. The shortest one that can be measured is half a block.
     double correlation_time = std::numeric_limits<double>::quiet_NaN();
     double independent_samples = std::numeric_limits<double>::quiet_NaN();
-    /// Whether the run is too short for an error that covers the scatter; only in runs planned for
-    /// a million steps or more, whose first blocks are single steps
+    /// Whether the run has too few blocks or collisions for a reliable error, and so has none.
+    /// Always false in runs that are planned for less than a million steps.
     bool is_short = false;
     bool is_conserved = false; ///< whether all blocks agree except for rounding
     bool is_changing = false;  ///< the halves of the run differ by more than their errors allow

@@ -47,8 +47,8 @@ private:
     std::vector<Problem> problems_;
 };
 
-/// An operation of all ranks failed on some rank. Every rank throws the text of the lowest failing
-/// rank. `code()` is 2 for a damaged file, 4 for a file that cannot be written, else 3.
+/// An operation of all ranks failed on some rank. Every rank throws it with the text of the lowest
+/// such rank. `code()` is 2 for a damaged file, 4 for a file that cannot be written, else 3.
 class CollectiveError : public std::runtime_error {
 public:
     explicit CollectiveError(const std::string& text, ExitCode code = ExitCode::collective_failure)

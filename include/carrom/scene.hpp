@@ -32,7 +32,7 @@ struct SceneFacts {
     bool is_event_driven = false;
     /// Whether the left and right, and the bottom and top sides are periodic
     bool is_periodic_x = false, is_periodic_y = false;
-    bool exchanges_radii = false; ///< whether Simulation::kinds has the present radii
+    bool exchanges_radii = false; ///< whether discs exchange their radii (`effects.swap`)
     /// A warning, one line each, for every setting that is allowed but often a mistake
     std::vector<std::string> warnings;
 };

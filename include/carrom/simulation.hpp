@@ -27,7 +27,7 @@ struct Options {
     /// Threads of each rank; 0: OMP_NUM_THREADS, or if unset the rank's share of the node's cores
     int threads = 0;
     /// Receives on rank 0 each line that `carrom run` prints when it starts, such as warnings and
-    /// the choice of a pilot. If empty, these lines are dropped.
+    /// the method that a pilot run has chosen. If empty, these lines are dropped.
     std::function<void(const std::string& line)> messages{};
     /// Count crossings of periodic sides, for `read_images`; takes 16 bytes a disc in such boxes
     bool counts_images = false;
@@ -55,7 +55,7 @@ public:
     /// uninterrupted run. If the place is a folder, the newest complete checkpoint there is used.
     /// The scene is in the file. `settings` (such as "time.steps=200") override its keys and may
     /// change the last step and the measurements. Throws CollectiveError (code 2) if the file is
-    /// damaged, InputError if a setting would make it another run. **Collective.**
+    /// damaged, InputError if a setting would change the simulated states. **Collective.**
     static Simulation from_checkpoint(const Session& session, const std::string& path,
                                       const std::vector<std::string>& settings = {},
                                       const Options& options = {});
@@ -95,8 +95,8 @@ public:
     void read_directions(std::span<double> angles) const;
     void read_collisions(std::span<std::int64_t> counts) const;
 
-    /// Writes how many box lengths discs have crossed periodic sides by, along x and y, to places
-    /// 2 id and 2 id + 1; a position plus these lengths gives a path without jumps. Each rank
+    /// Writes the number of box lengths that disc `id` has moved across periodic sides, along x and
+    /// y, to places 2 id and 2 id + 1; a position plus these lengths has no jumps. Each rank
     /// writes its share of the ids. Crossings count from the scene's start, or from a checkpoint
     /// that has no such counts. Writes nothing unless `Options::counts_images` was set and a side
     /// is periodic. Throws InputError for sheared sides, because their images move.

@@ -48,7 +48,7 @@ struct Totals {
     std::uint64_t chained_discs = 0; ///< discs that touch at least two others
     double kinetic_energy = 0;       ///< kinetic energy of translation, without rotation
     double rotational_energy = 0;    ///< energy of rotation of rough discs
-    /// Energy of positions. Gravity's part is 0 at the walls towards which it pulled at the start
+    /// Potential energy. The part of gravity is 0 at the walls towards which it pulled at the start
     double potential_energy = 0;
     double momentum_x = 0, momentum_y = 0;
     std::array<std::uint64_t, 4> departed{}; ///< number of discs that left through each open side:

@@ -96,7 +96,7 @@ GridGeometry make_geometry(const Extent& extent, Axis axis, double reach, std::s
     const auto [width, height] = turned(axis, std::max(extent.size().x, 0.0),
                                         std::max(extent.size().y, 0.0));
     const auto n_cells = static_cast<double>(n_discs + 16);
-    // In a narrow tube a cell is as high as the tube.
+    // The width of about `n_cells` square cells. In a narrow tube they form a single row.
     const double sparse_width = std::max(std::sqrt(width / n_cells) * std::sqrt(height),
                                          std::max(width, height) / n_cells);
     // Cells of half this width save a third of the pair tests, if cells as wide as the reach would

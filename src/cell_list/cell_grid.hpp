@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cell list: discs sorted into square cells by their positions at a window's anchor. Cells are
-// numbered column by column. So the cells of one column within reach of a disc are one contiguous
-// range of slots, which is read up to 16 lanes at a time.
+// The cell list: discs sorted into square cells by their positions at one time of a window, the
+// anchor. Cells are numbered column by column. So the cells of one column within reach of a disc
+// are one contiguous range of slots, which vector instructions read up to 16 at a time.
 //
 // Own discs are sorted in memory: the slot of an own disc is its index, so neighbours in space are
 // neighbours in memory. Discs of the halo stay in the order of arrival. They have their own slots,
@@ -27,7 +27,7 @@
 namespace carrom {
 
 /// The positions of cells. Columns follow each other along `axis`, rows across it. Discs outside of
-/// the grid belong to its border cells, which never adds cells between two discs.
+/// the grid belong to its border cells; this never increases the number of cells between discs.
 struct GridGeometry {
     Axis axis = Axis::x;
     double low = 0, across_low = 0; ///< lower ends of the first column and row
@@ -155,7 +155,7 @@ public:
         return run_from(cell_start_, static_cast<std::size_t>(column) * rows(), first_row,
                         last_row);
     }
-    /// The slots of the halo's discs in these cells.
+    /// The slots of the halo's discs in the cells (column, first_row .. last_row).
     SlotRange halo_run(int column, int first_row, int last_row) const {
         if (!has_halo_in(column)) return {};
         return run_from(halo_.starts(), halo_.first_cell(column), first_row, last_row);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Brings discs into the order of their cells, in place.
+// Sorts discs by their cells, in place.
 //
 // A counting sort determines the new place of each disc. Each thread counts the discs of its share
 // in its own cells, and lists the few discs that lie in other threads' cells. Then one pass moves
@@ -19,7 +19,7 @@
 
 namespace carrom {
 
-/// A list of whole numbers in memory that belongs to floats.
+/// A list of whole numbers in memory that was allocated for floats.
 class Lent {
 public:
     explicit Lent(float* at) : at_(at) {}
@@ -58,7 +58,7 @@ public:
     /// Gives each thread the far-moving discs that go to its places. Returns false if there are
     /// many: the discs are then not nearly sorted, and `rearrange` is faster.
     bool share_out_travellers();
-    /// Moves discs to their new places, in ascending order. Calls placed(i) when place i has its
+    /// Moves discs to their new places, in ascending order. Calls placed(i) when place i holds its
     /// disc; from then on the order up to i is no longer needed.
     template <class Placed>
     void carry(std::span<DiscState> discs, SortMemory memory, const Placed& placed) {
@@ -75,7 +75,7 @@ private:
         std::uint32_t first_cell = 0, end_cell = 0;
         std::vector<LocalIndex> strays; ///< discs of this share in cells of others, ascending
     };
-    /// The state of a thread while it brings its share of the places into order.
+    /// The state of a thread while it moves discs to their sorted places, for its share of these.
     struct Carrier {
         DiscStates passed;                ///< ring buffer of the discs overwritten last
         DiscStates travellers;            ///< discs that move far; copied beforehand

@@ -9,7 +9,7 @@
 
 namespace carrom {
 
-/// The own discs of a rank, then the halo. Other ranks treat the pairs of two halo discs.
+/// The own discs of a rank, then the halo. Pairs of two halo discs are left to other ranks.
 struct Population {
     std::span<const DiscState> discs;
     std::size_t n_own = 0;

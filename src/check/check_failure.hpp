@@ -27,7 +27,7 @@ enum class Invariant : int {
     counters,
     motion,  ///< the disc's velocity and spin have changed only in collisions
     overlap, ///< no pair overlaps, unless the time-stepped method allows it
-    energy,  ///< the total energy is unchanged, both of the discs that have collided and of all
+    energy,  ///< energy is unchanged except by effects: of discs linked by collisions, and of all
              ///< discs
 };
 

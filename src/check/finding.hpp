@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A broken invariant of a disc: ranks compare findings, and one is printed.
+// A broken invariant of a disc. Ranks compare their findings, and one finding is reported.
 #pragma once
 
 #include <cstdint>

@@ -21,8 +21,8 @@ struct SharedEnergy {
     double n_reflections = 0;
 };
 
-/// A cluster of discs whose energy has changed: its lowest disc, the relative change, and the bound
-/// on it.
+/// A cluster of discs whose energy has changed: the lowest id of its discs, the relative change,
+/// and the bound on it.
 struct EnergyChange {
     DiscId disc = 0;
     double share = 0, bound = 0;

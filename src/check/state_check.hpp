@@ -67,8 +67,8 @@ public:
 
     /// Checks the state at the end of a step. `log` has this rank's share of the collisions since
     /// the last inspection. If an invariant is broken, every rank throws the same CheckFailure.
-    /// `work_of_images`: work on this rank since then (Engine::add_work_to). `energy_given`:
-    /// Engine::energy_given. **Collective.**
+    /// `work_of_images`: work of images on this rank since the last inspection
+    /// (Engine::add_work_to). `energy_given`: Engine::energy_given. **Collective.**
     void inspect(const LocalView& now, std::int64_t micro_steps_done,
                  std::span<const Collision> log, const CheckedColumns& columns = {},
                  double work_of_images = 0, double energy_given = 0);
@@ -147,7 +147,7 @@ private:
     double work_of_walls(const Known& known) const;
     double work_of_walls() const;
     Extent walls_before() const;
-    /// The fraction of the energy that drag has left since the last check; the micro-steps since.
+    /// The share of energy that drag has left since the last check; next: micro-steps since then.
     double energy_left() const;
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
     double n_syncs_since(std::int64_t micro_step) const {
@@ -198,7 +198,7 @@ private:
     std::vector<Known> known_, before_;
     std::int64_t micro_steps_done_ = 0, micro_steps_before_ = 0;
     double tolerance_ = 0, fastest_ = 0,
-           energy_ = 0; ///< energy that all discs should have, in the scene's units
+           energy_ = 0; ///< energy of all discs at the start or last check, in the scene's units
     /// Collisions of pairs on all ranks since the check began
     std::uint64_t n_pair_collisions_ = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks the motion and energy of single discs between collisions, and the energy of discs that a
-// step's collisions link, and of all discs.
+// Checks the motion and energy of single discs between collisions, the energy of groups of discs
+// that a step's collisions link, and the energy of all discs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -49,7 +49,7 @@ Finding StateCheck::find_velocity_change() const {
         const double seam = effects_.periods(scene_.box).speed;
         double wx = disc.vx - (then.vx * left + pull.x * time + swayed_[0].speed);
         const double wy = disc.vy - (then.vy * left + pull.y * time + swayed_[1].speed);
-        if (seam != 0) // the disc came through the seam: it has its image's velocity
+        if (seam != 0) // the disc crossed the seam: it has its image's velocity
             wx += seam * std::round((then.y + then.vy * time - disc.y) / scene_.box.y);
         const double bound = seam != 0 ? motion_bound *
                                              (std::sqrt(squared_speed_of(then)) + std::fabs(seam))
@@ -90,13 +90,13 @@ Finding StateCheck::first_other_energy(std::span<const DiscState> own, Log log) 
     }
     const Finding of_all = first_other_total(own, mine);
     if (finding.is_found == 0) finding = of_all;
-    // ranks that keep records check the energy, so no owner is known
+    // The owner is not known here, because the ranks that keep the records check the energy.
     if (finding.is_found == 1) finding.rank = -1;
     return finding;
 }
 
-/// Checks the energy of all discs against that at the check's start, or against the last check if
-/// effects take or give energy. **Collective.**
+/// Compares the energy of all discs with that at the check's start, or at the last check if effects
+/// take or give energy. **Collective.**
 Finding StateCheck::first_other_total(std::span<const DiscState> own,
                                       const std::vector<SharedEnergy>& mine) {
     if (walls_give_energy_ || surfaces_give_energy_) return {};
@@ -135,7 +135,7 @@ Finding StateCheck::first_other_total(std::span<const DiscState> own,
     if (have_open_sides_ && have_any_moved()) return {};
     const double drift = may_lose_energy_ ? energy - expected : std::fabs(energy - expected);
     if (!(scale > 0) || drift <= allowed || known_.empty() || std::isinf(expected)) return {};
-    // No single disc is the cause. Each rank names its lowest disc that collided, or its first.
+    // No single disc is the cause. Each rank names the first disc that collided, or its first disc.
     return {Invariant::energy, 0, mine.empty() ? first_id_ : mine.front().disc, drift / scale,
             allowed / scale};
 }
@@ -229,8 +229,8 @@ double StateCheck::other_energy(const DiscState& seen, double spin) const {
     return sum;
 }
 
-/// Adds a constant to the potential energy, so that bounds relative to the result also allow for
-/// rounding errors of the potential energy.
+/// Twice a disc's energy. A constant is added to the potential energy, so that bounds relative to
+/// the result also allow for rounding errors of the potential energy.
 double StateCheck::twice_energy(const DiscState& seen, double spin) const {
     const double mass = mass_of(seen.id);
     return mass * squared_speed_of(seen) +
@@ -267,7 +267,7 @@ double StateCheck::energy_of_way(std::size_t i) const {
 }
 
 /// Twice the energy that contacts at rest may add, at the speed ContactGuard::least_departure. A
-/// disc that slides along the inner face of an arc is pressed to it by the bend of its way.
+/// disc that slides along the inner face of an arc is pressed to it because its path is curved.
 double StateCheck::resting_gain(const Known& known) const {
     const Acceleration g = effects_.acceleration();
     const SizeAndMass& body = species_.of(known.disc.id);
@@ -279,10 +279,10 @@ double StateCheck::resting_gain(const Known& known) const {
     return 1.01 * body.mass * leaving * leaving * static_cast<double>(known.walls);
 }
 
-/// The largest energy that vibrating walls have given to or taken from a disc. A disc that arrives
-/// with v and leaves with v' gains m (v' - v) (v' + v) / 2. Relative to the wall it gets no faster,
-/// so the gain is at most impulse times wall speed. For discs that rest on a wall resting_gain is
-/// added.
+/// The largest energy that vibrating walls may have given to or taken from a disc. A disc that
+/// arrives with v and leaves with v' gains m (v' - v) (v' + v) / 2. Relative to the wall it gets no
+/// faster, so the gain is at most impulse times wall speed. For discs that rest on a wall
+/// resting_gain is added.
 double StateCheck::work_of_walls(const Known& known) const {
     return 1.01 * speed_of_walls() * known.wall_impulse / static_cast<double>(scene_.micro_steps);
 }

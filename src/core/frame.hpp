@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The frame of reference in which states are stored, relative to the box.
 //
-// If discs fall, states are stored in a frame that falls freely since the last sync. Under drag,
+// If discs fall, states are stored in a frame that falls freely from the last sync on. Under drag,
 // times are stored on a clock that slows down as the discs do. In this frame discs fly straight at
 // constant speed, so contacts of pairs need neither falling nor drag. In a periodic box stored
 // positions may leave the box, and the disc's image is in the box. Without these effects the frame

@@ -12,7 +12,7 @@
 // Usually all boxes are at rest, and an image is shifted by a whole number of box lengths. Under
 // shear (Lees and Edwards, J. Phys. C 5, 1921 (1972)) the row of boxes above moves along x with a
 // constant velocity, the next row with twice that velocity, and so on. Fast kernels are compiled
-// separately for boxes at rest, and call the functions without a time.
+// separately for boxes at rest, and call functions such as x_at_rest, which ignore the motion.
 #pragma once
 
 #include <algorithm>

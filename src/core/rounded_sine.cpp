@@ -59,7 +59,7 @@ Pair series(Pair x, int first) {
 
 RoundedSine rounded_sine(double angle) {
     const double quarters = std::floor(angle / half_pi[0] + 0.5);
-    // The product with up to 5 quarters needs 3 bits more than a double; high + rest is exact.
+    // The product of pi / 2 and `quarters` has too many bits for a double; high + rest is exact.
     const double high = quarters * half_pi[0], rest = std::fma(quarters, half_pi[0], -high);
     Pair x = exact_sum(angle, -high);
     x = add(x, {-rest, 0});

@@ -26,7 +26,7 @@ struct SideColumnInfo {
     const char* name;  ///< name in checkpoints, and in scenes that give initial values
     const char* shown; ///< the column's name in recordings, tables and the fields of a trajectory
     bool is_rate;      ///< whether it is a rate, stored per micro-step
-    /// Whether effects decide which runs have the column; else only given initial values do
+    /// Whether effects determine which runs have the column; if not, runs with initial values do
     bool is_of_dynamics;
     bool is_given;     ///< whether scenes may give initial values; such columns come first
     const char* needs; ///< error message if initial values are given in a run without this column

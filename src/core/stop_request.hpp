@@ -34,8 +34,8 @@ inline bool is_stop_overdue() { return is_stop_requested() && stop_request::has_
 /// Sets the patience: how long a step may take after a request. The default is a second.
 void set_stop_patience(double seconds);
 
-/// Thrown on every rank if a request has ended a start or a step inside. The simulation's state is
-/// then inconsistent. Exit code 75.
+/// Thrown on every rank if a start or a step was abandoned because of a request. The simulation's
+/// state is then inconsistent. Exit code 75.
 class StopRequested : public CollectiveError {
 public:
     explicit StopRequested(const std::string& text) : CollectiveError(text, ExitCode::stopped) {}

@@ -30,7 +30,7 @@ inline constexpr std::int32_t most_images = 1 << 30;
 
 struct StoredSamples {
     std::vector<std::int64_t> averages; ///< equal on all ranks; empty before the first block
-    std::vector<std::int64_t> watched;  ///< equal on all ranks; empty if no order is watched
+    std::vector<std::int64_t> watched;  ///< equal on all ranks; empty if OrderWatch samples nothing
     std::vector<std::int64_t> sums;     ///< equal on all ranks; empty if nothing is measured
     std::vector<std::int64_t> stop; ///< equal on all ranks; empty if no pressure may end the run
     /// Values that effects keep; stored with the samples (StoredState::kept_by_effects)

@@ -98,7 +98,7 @@ StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, DiscSta
     n_own_ = discs_.size();
 }
 
-/// The position in the box of the disc at `time`, along the strips' axis and across it.
+/// The position of the disc's image in the box at `time`, along the strips' axis and across it.
 std::pair<double, double> StripDiscs::place_in_box(const DiscState& disc, double time) const {
     DiscState in_box = disc;
     in_box.x = disc.x_at(time);

@@ -74,7 +74,7 @@ public:
     /// same time. **Collective.**
     void fetch_halo(double time, double reach, DiscStates* companion);
 
-    /// Adds discs to the halos of ranks that pass `wants`, up to the distance `reach`. These halos
+    /// Adds discs up to the distance `reach` to the halos of ranks with `wants` true. These halos
     /// already hold all discs within `beyond`, which keep their indices. No updates can be sent
     /// until discs are sorted again. **Collective.**
     void fetch_more_halo(double time, double beyond, double reach, bool wants);

@@ -19,7 +19,7 @@ namespace carrom {
 /// planning a disc takes several times as long as packing it.
 inline constexpr std::size_t least_for_threads = 4096, least_planned_on_threads = 512;
 
-/// Calls visit(place) for the places first .. last - 1, numbered through all ranges together.
+/// Calls visit(place) for the places first .. last - 1 of the sequence of all ranges.
 template <class Visit>
 void visit_places(std::span<const PlaceRange> ranges, std::size_t first, std::size_t last,
                   const Visit& visit) {

@@ -15,8 +15,8 @@ namespace carrom {
 namespace {
 
 /// A disc that slides from a tangent line onto an arc may, by rounding, reach its circle just
-/// before the arc begins. So the inner face goes on for this share of the radius, as a tangent,
-/// which is away from the circle by 5e-15 of the radius at most.
+/// before the arc begins. So the inner face is made longer by this share of the radius, along the
+/// tangent, which deviates from the circle by at most 5e-15 of the radius.
 constexpr double slip = 1e-7;
 
 /// The time at which a flight leaves the circle of radius `reach`; `never` if it does not enter it,

@@ -37,7 +37,7 @@ public:
     /// Half the largest gap between discs in a contact, caused by the rounding of positions.
     static constexpr double slack() { return 0; }
     static constexpr double place_rounding() { return 0; }
-    /// Overlapping discs collide if they approach each other.
+    /// Whether overlapping discs collide if they approach each other.
     static constexpr bool parts_overlaps() { return true; }
 
     CARROM_DEVICE static void advance(DiscState& disc, double time) {

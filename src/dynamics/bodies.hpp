@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bodies of discs: radius, mass, and how fast the surface moves out. One part of a dynamics
-// (dynamics.hpp); bodies are plain data.
+// The bodies of discs: radius, mass, and how fast the surface moves out. They are one part of a
+// dynamics (dynamics.hpp), and are plain data.
 //
 //   EqualBodies     one radius, the mass 1
 //   SpeciesBodies   a radius and a mass for each species (species.hpp)
@@ -8,7 +8,7 @@
 //                   (1 + rate t), as in the method of Lubachevsky and Stillinger (J. Stat.
 //                   Phys. 60, 561 (1990)); event-driven method only. Radii follow from the time
 //                   since the scene's start, so states do not contain them. Collisions follow the
-//                   law of other discs, for the velocities of the surfaces. If the rate is 0,
+//                   same law as for other discs, with the velocities of surfaces. If the rate is 0,
 //                   an effect may change all radii by one factor at syncs (sync_effect.hpp).
 #pragma once
 

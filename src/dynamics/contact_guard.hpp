@@ -6,7 +6,7 @@
 // Granular Matter 1, 113 (1998), prevents this: a disc that has collided within the last contact
 // time collides elastically. By default the limit is a length instead: a collision is elastic if
 // the two discs have approached by less than a millionth of the sum of their radii since the last
-// collision of either. This guard is the same in all units and stays right as discs cool. At walls
+// collision of either. This limit depends neither on units nor on the speeds of discs. At walls
 // and fixed bodies the limit is a hundred times larger, because these do not give way, so a disc
 // that is pressed to one, or into a wedge between two, returns without end. A scene may set a time,
 // which saves collisions where discs lie at rest.
@@ -37,7 +37,7 @@ CARROM_DEVICE inline double since_collision(const DiscState& disc, double time) 
 
 class ContactGuard {
 public:
-    /// The share of the distance between centres that two discs close in by during a contact.
+    /// The share of the distance between centres by which two discs approach during a contact.
     static constexpr double pair_share = 1e-6;
     /// The same share for a disc and its mirror image behind a wall or a fixed body.
     static constexpr double wall_share = 1e-4;

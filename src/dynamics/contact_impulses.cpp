@@ -189,7 +189,7 @@ std::vector<ContactImpulses::Contact> ContactImpulses::lasting_contacts(
         contact.velocity = one.velocity;
         contact.distance = one.distance;
         // Discs closer than the rest gap need not move apart, because impulses would increase
-        // without end if the discs cannot.
+        // without end if the discs have no room.
         contact.approach = std::max(one.gap - rest_gap_, 0.0) / interval_;
         contact.mass = 1 / (1 / species_.of(a.id).mass +
                             (is_pair ? 1 / species_.of(discs[one.b].id).mass : 0));

@@ -145,8 +145,8 @@ public:
         return disc.has_departed() ? BodyContact{}
                                    : fixed_bodies_->first_contact(disc, size_of(disc), times);
     }
-    /// Whether no fixed body blocks a disc that flies in `time` from one state at the start of this
-    /// interval to the other.
+    /// Whether fixed bodies block neither the states `from` and `to` nor the flight between them,
+    /// which takes `time` from the start of this interval.
     bool is_way_free(const DiscState& from, const DiscState& to, double time) const {
         if (!has_fixed_bodies()) return true;
         const DiscSize size = size_of(from);

@@ -115,7 +115,7 @@ struct Surface {
 struct Inlet {
     double rate = 0;          ///< discs per time
     double temperature = 0;   ///< kT of the gas outside, a velocity squared, for masses of 1
-    std::int64_t species = 0; ///< a row of `discs.species`, counted from 1; 0 is any
+    std::int64_t species = 0; ///< a row of `discs.species`, counted from 1; 0 means any row
 
     bool is_on() const { return rate > 0; }
     friend bool operator==(const Inlet&, const Inlet&) = default;
@@ -321,7 +321,7 @@ struct Effects {
         species{};     ///< in the order of ids; empty if all discs have the same radius and mass 1
     double growth = 0; ///< growth of radii per time, as a share of the radii at the start
     double shear = 0;  ///< rate at which vx grows with y between sheared sides
-    /// Pairs that approach more slowly have lasting contacts from sync to sync
+    /// Pairs that approach more slowly than this have lasting contacts from sync to sync
     /// (contact_impulses.hpp); 0 means none.
     double lasting_speed = 0;
     Thermostat thermostat{};

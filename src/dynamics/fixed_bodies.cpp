@@ -67,7 +67,7 @@ void FixedBodies::add_line(const Segment& segment, double slides) {
     bodies_.push_back({segment.x1, segment.y1, 0});
 }
 
-/// Ends of the scene's arcs do not slide. Ends in the box's wall slide as seen from inside: -1.
+/// Ends of the scene's arcs do not slide. Ends of the box's arcs have `slides` -1, like its lines.
 void FixedBodies::add_arc(const Arc& arc, bool is_of_box) {
     Body face{arc.x, arc.y, arc.radius};
     face.is_arc = true;
@@ -358,7 +358,7 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     return loss;
 }
 
-/// Negative infinity beyond the ends of an arc, because its ends are bodies of their own.
+/// The overlap is minus infinity beyond the ends of an arc, because these are separate bodies.
 double FixedBodies::overlap_of(const Body& body, double x, double y, double radius) const {
     if (body.is_arc) {
         const double dx = x - body.x, dy = y - body.y, distance = std::sqrt(dx * dx + dy * dy);

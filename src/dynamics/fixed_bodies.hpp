@@ -71,13 +71,13 @@ public:
     BodyContact first_contact(const DiscState& disc, const DiscSize& size,
                               const ContactTimes& times) const;
 
-    /// Reflects a disc that meets the body with the contact's number `code` at `time`. The state is
-    /// advanced to `time` already, and the disc's last collision was `since` before. The surface of
-    /// the disc moves out at the speed `outwards`. Returns the loss for a mass of 1.
+    /// Reflects a disc at `time` from the fixed body with the number `code`, see BodyContact. The
+    /// state is advanced to `time` already; `since` is the time since the disc's last collision.
+    /// The surface moves out at the speed `outwards`. Returns the loss of energy for a mass of 1.
     Loss rebound(DiscState& disc, std::uint32_t code, double time, double since, double outwards,
                  const Turning& turning) const;
 
-    /// Where a disc whose state is at `time` touches the body with the contact's number `code`.
+    /// Where a disc, whose state is at `time`, touches the body with the number `code`.
     BodyTouch touch(const DiscState& disc, std::uint32_t code, double time, double radius) const;
 
     bool are_any() const { return !bodies_.empty(); }

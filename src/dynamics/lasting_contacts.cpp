@@ -18,8 +18,8 @@ double friction_of(ContactKind kind, const PairFactors& pair) {
 
 } // namespace
 
-/// The cells along one axis. `visit` gives the numbers of those from `low` to `high`, each once,
-/// also in a periodic box.
+/// The cells along one axis. `visit` gives the numbers of the cells between the positions `low` and
+/// `high`, each once, also in a periodic box.
 class CellLine {
 public:
     CellLine(double length, double width, double most, bool is_periodic)

@@ -26,8 +26,8 @@ struct HeapDisc {
     friend bool operator==(const HeapDisc&, const HeapDisc&) = default;
 };
 
-/// A contact between disc `a` and disc `b`, which is `fixed_body` also for walls. The
-/// normal (nx, ny) points from a to b, and the tangent is (-ny, nx).
+/// A contact of disc `a` with disc `b`, or with a wall or a fixed body if `b` is `fixed_body`.
+/// The normal (nx, ny) points from a to b, and the tangent is (-ny, nx).
 struct LastingContact {
     static constexpr std::uint32_t fixed_body = 0xffffffff;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a collision changes the velocities and spins of two discs. One part of a dynamics
-// (dynamics.hpp); a law is plain data.
+// How a collision changes the velocities and spins of two discs. A law is one part of a dynamics
+// (dynamics.hpp), and is plain data.
 //
 //   elastic       the relative velocity along the line of centres is reversed
 //   restitution   only the share `restitution` of this velocity is left; 1: same bits as elastic

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How discs fly, collide with each other and stop at walls at rest: a space, bodies, a law and an
+// How discs fly, collide with each other and meet walls at rest: a space, bodies, a law and an
 // arithmetic, with the functions that use them. It is the part of a dynamics (dynamics.hpp) that is
 // plain data, so kernels of a GPU get a copy of it and run the same functions.
 #pragma once

@@ -31,7 +31,7 @@ public:
     /// A wall that does not oscillate.
     Oscillation() = default;
     /// `side` has times in micro-steps. `sign` is 1 if the inside is in the positive direction,
-    /// else -1. `acceleration`: of discs along the axis; `slack`: rounding of positions.
+    /// else -1. Discs have `acceleration` along the axis; `slack` is the rounding of positions.
     Oscillation(const Boundary& side, double sign, double acceleration, double slack);
 
     bool is_on() const { return amplitude_ > 0; }
@@ -41,14 +41,14 @@ public:
     /// Starts an interval: from now on times are relative to `time` since the scene's start.
     void begin_interval(double time);
     WallMotion at(double time) const;
-    /// The acceleration of a disc towards the wall at which it is: the larger of its values now and
-    /// at `later`. It is negative if the wall moves away faster than discs fall.
+    /// The acceleration towards the wall of a disc that touches it: the larger of the values at
+    /// `time` and at `later`. It is negative if the wall moves away faster than discs fall.
     double pressure_at(double time, double later) const;
 
     /// The time after `time` until the disc first is at the wall or beyond, and approaches it.
     /// `distance` is the distance from the line towards the inside at `time`, and `rate` is the
-    /// derivative of `distance`. `from_wall` is the rate relative to the wall itself, whose sign
-    /// decides at `time`. Contacts that are less deep than the slack may be missed.
+    /// derivative of `distance`. `from_wall` is the rate relative to the wall itself; its sign
+    /// decides about a contact at `time`. Contacts that are less deep than the slack may be missed.
     double contact_delay(double distance, double rate, double from_wall, double time) const;
 
 private:
@@ -60,7 +60,7 @@ private:
     double amplitude_ = 0, period_ = 1, rate_ = 0; ///< rate: angular frequency 2 pi / period
     double phase_ = 0, turns_ = 0;           ///< phase in turns, at the start and at the last sync
     double sign_ = 1, pull_ = 0, slack_ = 0; ///< pull: acceleration towards the inside
-    /// The times of equal acceleration within one turn, in turns (see the top)
+    /// Times, in turns from 0 to 1, at which wall and discs have equal acceleration (see the top)
     double first_bend_ = 0, second_bend_ = 0;
 };
 

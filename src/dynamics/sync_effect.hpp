@@ -6,8 +6,8 @@
 // functions of the seed, the disc and the count of syncs. So any number of ranks and threads gives
 // the same bits, and a restart needs only the count and the values that an effect keeps (`kept`).
 //
-// The engine calls the list of effects once a sync, never for a pair. The list is empty in scenes
-// without such an effect.
+// The engine calls each effect once a sync, never for a pair. Scenes without such an effect have
+// an empty list of effects.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ struct WallImpulse {
     double normal = 0;                 ///< impulse away from the side
     double along = 0;                  ///< impulse along the side, in the direction of its axis
     double energy = 0;                 ///< change of the discs' kinetic energy
-    double ix = 0, iy = 0, torque = 0; ///< members of WallEvent of these names; for fixed bodies
+    double ix = 0, iy = 0, torque = 0; ///< as in WallEvent; only for fixed bodies
 };
 
 /// The impulse that one disc gives another one at a sync.
@@ -66,7 +66,7 @@ struct SyncDiscs {
     /// or image of one, within the reach that an effect has requested.
     using VisitNear = std::function<void(std::size_t index, DiscId other, double distance)>;
     std::function<void(const VisitNear& visit)> visit_near_pairs = {};
-    /// Adds up in place over all ranks. **Collective.**
+    /// Replaces each sum by its sum over all ranks. **Collective.**
     std::function<void(std::span<ExactSum>)> add_over_ranks = {};
     /// Returns the largest of the numbers of all ranks to every rank. **Collective.**
     std::function<double(double)> largest_over_ranks = {};
@@ -79,8 +79,8 @@ struct SyncDiscs {
     /// is empty unless stress is measured or pairs are followed.
     std::function<void(const PairImpulse&)> record_pair = {};
 
-    /// Adds up over all discs in the box. `sums` are 0 at first; `term(i, parts)` adds the terms of
-    /// disc i to a copy of them. **Collective.**
+    /// Adds the terms of all discs in the box to `sums`, which must be 0. `term(i, parts)` adds the
+    /// terms of disc i to `parts`, a copy of `sums`. **Collective.**
     template <class Term> void add_up(std::vector<ExactSum>& sums, const Term& term) const;
 };
 

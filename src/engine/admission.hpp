@@ -39,7 +39,7 @@ struct Admission {
     ArrivalCounts counts;
 };
 
-/// Each arrival gets the departed disc of the lowest id in its range that no earlier one got. The
+/// Each arrival gets the departed disc of the lowest id in its range that is still free. The
 /// arrival is left out if another disc or a fixed body is at its place of entry. If only the place
 /// to which the disc has flown is blocked, or the way there, the disc stays at its place of entry.
 /// **Collective.**

@@ -12,20 +12,20 @@ namespace carrom {
 struct Collision {
     static constexpr DiscId wall = ~DiscId{0};
 
-    /// The micro-step, since the scene's start, from whose start `time` counts
+    /// `time` counts from the start of this micro-step; the scene's first one has the number 0
     std::int64_t micro_step = 0;
     double time = 0; ///< time in micro-steps
-    /// Number in a chain of collisions at one time in the event-driven method
+    /// Position in a chain of collisions at the same time, in the event-driven method
     std::uint64_t generation = 0;
     DiscId p = 0, q = wall; ///< p is the lower id of a pair
     double impulse = 0;     ///< the impulse on p, in mass times length per step
 };
 
-/// A disc that has flown through periodic sides is brought back into the box at a sync,
-/// by this many box lengths.
+/// The numbers of box lengths by which a disc that has flown through periodic sides is brought
+/// back into the box at a sync.
 struct Crossing {
     DiscId disc = 0;
-    double x = 0, y = 0; ///< numbers of box lengths, which are whole
+    double x = 0, y = 0; ///< whole numbers of box lengths
 };
 
 } // namespace carrom

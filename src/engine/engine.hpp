@@ -70,7 +70,7 @@ public:
     virtual std::span<const DiscState> departed()
         const = 0; ///< the discs of this rank that have left the box; own() does not contain them
     virtual SideSpans side_columns() const { return {}; } ///< columns of the discs in `own()`
-    /// Side columns of the discs in `departed()`.
+    /// Numbers outside of the 64-byte states (side_columns.hpp), for the discs in `departed()`.
     virtual SideSpans departed_columns() const { return {}; }
     virtual const SpeciesTable& species_table() const = 0;
     /// The factor by which an effect at syncs has changed all radii of the table.
@@ -100,7 +100,7 @@ public:
     /// time of the sync. It must not change states. An empty function ends this.
     void call_before_effects(std::function<void()> act) { before_effects_ = std::move(act); }
     /// From now on the contributions of own discs to the time integral of stress are added to
-    /// `sums` of one rank; null ends this. The owner of a pair's first disc adds a collision.
+    /// this rank's `sums`; null ends this. The owner of a pair's first disc adds its collisions.
     void add_stress_to(StressSums* sums) {
         stress_ = sums;
         if (!sums) return;

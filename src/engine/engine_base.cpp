@@ -74,7 +74,7 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
     largest_speed_ = std::sqrt(squared_speed_of_own(time_));
 }
 
-/// Micro-steps from one addition of flights to the sums of stress to the next.
+/// Number of micro-steps between two syncs at which flights are added to the sums of stress.
 template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() const {
     const bool sync_changes_velocities = Dynamics::has_moving_images || dynamics_.has_own_frame() ||
                                          sync_action_.has_effects();
@@ -263,7 +263,7 @@ template <class Dynamics> double EngineBase<Dynamics>::let_effects_act() {
     return largest_speed_of_all_states();
 }
 
-/// Effects act here once before all flights to the next sync, also if a restart continues here.
+/// Lets effects act before the flights that follow a sync, also if a restart begins at this sync.
 template <class Dynamics> void EngineBase<Dynamics>::let_effects_begin() {
     const PhaseClock::Scope scope(phases_, Phase::sync);
     discs_.forget_halo(); // the halo still has the velocities before the effects

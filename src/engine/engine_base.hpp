@@ -86,7 +86,7 @@ protected:
     /// Without later times, runs that are inspected at each step would have a window for each step,
     /// which costs as much as a long one.
     std::int64_t horizon_of(std::int64_t target) const;
-    /// Stops are probable at multiples of this number of micro-steps from the present one.
+    /// Stops are probable at multiples of this number of micro-steps after the present stop.
     std::int64_t stop_interval() const { return stop_interval_; }
     /// The region that cells cover: the whole region that the rank uses, or only the part of it
     /// that contains its discs. If discs are clustered, cells of the whole region would hold
@@ -157,7 +157,7 @@ private:
 
     SpeciesTable species_;
     SyncAction sync_action_;
-    /// Micro-steps from one addition of whole flights to the stress to the next
+    /// Number of micro-steps between two syncs at which flights are added to the sums of stress
     std::int64_t flight_length_;
     std::int64_t last_micro_step_, n_syncs_ = 0;
     /// Whether windows continue after stops. This is so if no redistribution followed the last stop

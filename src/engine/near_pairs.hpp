@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// Visits pairs whose first disc is an own disc in that column. The second disc is in the same or a
+/// Visits pairs whose first disc is an own disc in `column`. The second disc is in the same or a
 /// higher column, or in the halo. Pairs of two halo discs are left to other ranks.
 template <class Visit>
 void visit_near_pairs_of(const CellGrid& grid, int column, const Visit& visit) {

@@ -19,7 +19,7 @@ namespace carrom {
 /// Lengths are the scene's; velocities and impulses are per step.
 struct PairEvent {
     DiscId p = 0, q = 0; ///< p is the lower id
-    /// The micro-step, counted from the scene's start, from which `time` counts
+    /// `time` counts from the start of this micro-step; the scene's first one has the number 0
     std::int64_t micro_step = 0;
     double time = 0;           ///< time in micro-steps
     double x = 0, y = 0;       ///< centre of p

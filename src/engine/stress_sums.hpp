@@ -26,7 +26,7 @@
 
 namespace carrom {
 
-/// Flights are added to sums after this many micro-steps, or at the first sync after that.
+/// The longest time, in micro-steps, between additions of flights to sums, unless syncs are rarer.
 constexpr std::int64_t longest_flight = 1024;
 
 struct StressSums {

@@ -21,7 +21,7 @@ struct WallEvent {
     double normal = 0; ///< impulse on the disc normal to the side, positive away from it
     double along = 0;  ///< impulse on the disc along the side, in the direction of the axis
     double energy = 0; ///< kinetic energy of the disc's motion that the side has added
-    /// The impulse of a lasting contact until the next sync, not of a collision
+    /// Whether the impulse is that of a lasting contact until the next sync, not of a collision
     bool is_lasting = false;
     // For a fixed body, which has no side:
     std::uint32_t body = no_body; ///< its row (rows_of in dynamics/container.hpp)

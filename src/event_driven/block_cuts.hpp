@@ -95,7 +95,7 @@ private:
     struct Node {
         bool is_block = true, is_cut_by_column = false;
         int cut = 0; ///< where the upper part of a divided rectangle begins
-        /// Index of the nodes of both parts; for a block `lower` is its number
+        /// Indices of the nodes of both parts; for a block, `lower` is the number of the block
         std::size_t lower = 0, upper = 0;
     };
     struct Cut {
@@ -115,7 +115,7 @@ private:
     std::vector<CellBlock> blocks_;
     std::vector<std::size_t> numbers_; ///< for each node the number of its first block
     std::vector<Node> nodes_;          ///< the first node contains all cells
-    std::vector<double> work_;         ///< work of the blocks cut by work
+    std::vector<double> work_;         ///< expected work of each block; empty if cut evenly
     std::vector<double> shares_; ///< work of the blocks without their halos, relative to each other
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Block runs of discs of several sizes, whose discs lie in levels of cells (size_levels.hpp).
+// Block runs for discs of several sizes. Discs lie in levels of cells by size (size_levels.hpp).
 //
-// A disc searches partners of its own level and of levels of larger discs among discs and ghosts
-// (box_layout.hpp). In levels of smaller discs its images near the box search discs alone, so that
-// the depth of a level's ghosts depends only on the reach of its own discs, however large other
-// discs are.
+// In its own level, and in levels of larger discs, a disc searches among discs and their ghosts
+// (box_layout.hpp). In levels of smaller discs, a run of the whole box searches around the disc and
+// around its images near the box, without ghosts. So the depth of a level's ghosts depends only on
+// the reach of its own discs, however large other discs are.
 #include <algorithm>
 #include <cmath>
 
@@ -65,7 +65,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::list_levels_of_all()
 }
 
 /// Gives slots to the discs in `in_levels`. Cells fill `extent`; cells of a whole box repeat with
-/// the periods `across`. Discs with indices below `n_at_home` have the image that the run uses.
+/// the periods `across`. Discs with indices below `n_at_home` keep their stored image.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::lay_levels(const Extent& extent, const Periods& across,
                                              std::size_t n_at_home) {

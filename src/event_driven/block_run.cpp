@@ -256,7 +256,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     if (is_corner && !has_left &&
         (Dynamics::has_mirror_walls ||
          discs[event.p].vy ==
-             vy_before)) { // y follows x at once, because their order has no meaning
+             vy_before)) { // y follows immediately, because the order of sides has no meaning
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;
@@ -330,7 +330,7 @@ template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event&
     return loss;
 }
 
-/// Records that an own disc has met the disc in `slot`, if that one is from beyond the ring, where
+/// Records that an own disc has met the disc in `slot`, if that disc is from beyond the ring, where
 /// histories are not compared. Either that disc was faster than the bound, or this run is wrong.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::uint32_t slot) {
     if (is_compared(slot)) return;

@@ -75,7 +75,7 @@ double block_reach(const BlockWindow& window, double diameter, const Box& box);
 struct BlockSums {
     StressSums no_stress{0x1p900}; ///< sums of zero in the engine's unit
     LossSums no_losses{0x1p900};   ///< sums of zero in the engine's unit
-    double flown_before = 0; ///< time over which the stress of flights was summed, at the last sync
+    double flown_before = 0; ///< time of flights before the last sync that the stress still lacks
 };
 
 /// Which collisions of own discs are recorded, and how.
@@ -189,7 +189,7 @@ struct BlockOutcome {
     std::vector<BlockPart> parts; ///< one part for each stop, and one for the window's end
     std::vector<LocalIndex> hit;  ///< own discs that have collided, once for each part
     RawVector<NewState> states;   ///< the new states of the discs in `hit`, in the same order
-    SideColumns columns;          ///< their new values in the side columns
+    SideColumns columns;          ///< side columns of the discs in `hit`, in the same order
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     NotedEvents<PairEvent> pairs;
@@ -205,7 +205,7 @@ struct BlockOutcome {
     DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if the disc meets a wall
     double cascade_time = 0;
 
-    /// The entries of a list that belong to the parts from `first` up to but without `end`;
+    /// The range of the entries of a list that belong to the parts `first` to `end` - 1;
     /// `number` is the list's member of BlockPart.
     std::pair<std::size_t, std::size_t> entries(std::size_t BlockPart::* number, std::size_t first,
                                                 std::size_t end) const {

@@ -71,7 +71,7 @@ struct LevelCells {
 };
 
 template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
-    /// Whether discs of several radii lie in levels of cells. Moving images exclude this.
+    /// Whether discs of several radii lie in levels of cells, which is not done if images move.
     static constexpr bool has_sizes = Dynamics::has_species && !Dynamics::has_moving_images;
 
     explicit Scratch(const Dynamics& of_scene) : dynamics(of_scene) {}
@@ -164,7 +164,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     }
     void predict_pairs(const Flight& flight);
     /// Finds the partners of every disc, so a pair may be found twice. This is needed if rows of
-    /// images slide: the two ghosts of a pair across the seam need not lie in opposite cells, so
+    /// images slide: the ghosts of a pair across a sheared side need not lie in opposite cells, so
     /// the order of cells may make neither disc the first of the pair.
     void predict_pairs_of_all() {
         for (std::uint32_t slot = 0; slot < discs.size(); ++slot)
@@ -187,7 +187,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void begin_part();
     void end_part();
 
-    // These are for discs of several sizes (block_levels.cpp).
+    // These functions are for discs of several sizes (block_levels.cpp).
     void list_levels(const CellBlock& own, int halo);
     void list_levels_of_all();
     void lay_levels(const Extent& extent, const Periods& across, std::size_t n_at_home);
@@ -235,7 +235,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         return Dynamics::is_periodic && is_whole ? layout.ghost_at(slot) : nullptr;
     }
     /// Whether the two discs collided with each other at this time and with no other disc since. In
-    /// a periodic box this is also true if other images of them collided.
+    /// a periodic box this is also true if other images of the two discs collided.
     bool have_just_collided(std::uint32_t a, std::uint32_t b, double time) const {
         if constexpr (Dynamics::is_periodic) {
             const auto was = [this](std::uint32_t partner, std::uint32_t disc) {
@@ -380,7 +380,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     float bound_lane_squared = 0;   ///< the square of a slightly smaller bound, in cells per window
     double void_squared = 0;        ///< squared disc speed above which `is_void` ends the run
     double too_fast = 0;            ///< the value for BlockOutcome::too_fast
-    bool is_void = false;           ///< a disc is so fast that the window will be far shorter
+    bool is_void = false;           ///< whether a disc's speed requires a far shorter window
     double largest_squared = 0;     ///< square of BlockOutcome::largest_speed
     double classes_per_squared = 1; ///< number of speed classes for each unit of the squared speed
     // Members for discs of several sizes.

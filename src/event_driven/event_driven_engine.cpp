@@ -23,7 +23,7 @@ namespace {
 /// Below this number of collided discs, threads cost more time than they save.
 constexpr std::size_t least_hits_for_threads = 4096;
 
-/// **Collective.**
+/// The settings from which windows are chosen, equal on all ranks. **Collective.**
 WindowSetting window_setting(const Tuning& tuning, const BlockTuning& blocks,
                              const Communicator& communicator) {
     const auto threads = static_cast<double>(communicator.max(std::int64_t{tuning.threads}));
@@ -74,10 +74,10 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::advance_to(std::int6
     n_micro_done_ = target;
 }
 
-/// Finds all events of the next window. If windows may contain stops, it may end after `target`.
-/// Then one part of it ends at `target`, and others where the next stops are expected. No state
-/// changes before `commit_until`, so that threads and ranks can work on a whole window without
-/// waiting for each other at stops.
+/// Finds all events of the next window. If windows may contain stops, the window may end after
+/// `target`. Then one part of it ends at `target`, and others where the next stops are expected.
+/// No state changes before `commit_until`, so that threads and ranks can work on a whole window
+/// without waiting for each other at stops.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::run_window(std::int64_t target) {
     this->set_departed_aside();
     migrate();
@@ -245,7 +245,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
         const BlockOutcome& outcome = blocks_[marked[i]].outcome;
         round[i].n_carried = outcome.n_carried;
         round[i].n_seen = outcome.n_seen;
-        // repeated runs are left out of the balance: they may be elsewhere in the next window
+        // repeated runs do not count in the balance: the next window may repeat other blocks
         if (round[i].is_repeated) continue;
         this->rank_work_.of_pairs += work_unit * outcome.n_carried;
         this->rank_work_.of_discs += static_cast<std::uint64_t>(

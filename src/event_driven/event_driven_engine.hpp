@@ -46,7 +46,7 @@ struct BlockTuning {
     bool notes_work = false; ///< whether work is recorded for `take_work()`
 };
 
-/// The work for a disc of a run besides its collisions, in collisions; and units per collision.
+/// Work for each disc of a run, relative to a collision; and units of work for one collision.
 inline constexpr double work_of_disc = 0.14;
 inline constexpr std::uint64_t work_unit = 100;
 
@@ -94,7 +94,7 @@ private:
         bool saw_all = false;       ///< whether the block's last run covered the whole box
         BlockOutcome outcome;
     };
-    /// `fails_later`: the window ends in an error, perhaps after its first stop; it is cut there.
+    /// `fails_later`: an error occurs, perhaps after the first stop, so the window is cut there.
     enum class Verdict { exact, repeat, too_fast, fails_later };
     /// Results of the validation of a window, summed over all ranks.
     struct FoundInWindow {
@@ -181,7 +181,7 @@ private:
     double first_packing_ = 0;
     double runaway_speed_ = 0; ///< speed that ends the run (runaway.hpp)
     JamWatch jam_watch_;       ///< detects a jam of growing discs
-    /// Speed of growing discs at the start of this interval or of the engine
+    /// Largest speed of growing discs at the start of this sync interval or of the engine
     double first_speed_ = 0;
     /// The density in the cell of each own disc relative to the mean of the box, summed over own
     /// discs. In a homogeneous gas each term is below 1, because discs exclude each other.
@@ -189,10 +189,10 @@ private:
     double mean_crowding_ = 1; ///< mean over all discs, or 1 if it is near 1; equal on all ranks
     /// Results of the validation of the last window, and the largest speed at its end.
     JointReduction<FoundInWindow> reduced_;
-    /// Unit of the crowding as a whole number, whose sums do not depend on the order
+    /// The crowding is summed in whole units of 1 / `crowding_unit`, so that order has no effect
     static constexpr double crowding_unit = 1024;
     bool is_largest_known_ = false; ///< whether `reduced_` holds the largest speed of all ranks
-    RollbackCounts counts_;         ///< counts of blocks are those of this rank
+    RollbackCounts counts_;         ///< its counts of blocks are for this rank alone
 
     BlockChoice choice_;
     BlockWindow window_;

@@ -110,7 +110,7 @@ HWY_INLINE Vector places(const float* at_start, const float* velocity, Vector no
     return hn::MulAdd(hn::LoadU(Lanes(), velocity), now, hn::LoadU(Lanes(), at_start));
 }
 
-/// Replaces the time 0, for which a position needs no product.
+/// Stands for the time 0, at which a disc's position needs no computation.
 struct AtStart {};
 HWY_INLINE Vector places(const float* at_start, const float* /*velocity*/, AtStart) {
     return hn::LoadU(Lanes(), at_start);

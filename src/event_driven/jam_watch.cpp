@@ -13,8 +13,8 @@ constexpr double most_in_bin = 0x1p-10;
 /// The first bin after a start is shorter than the others by this factor, because no collision rate
 /// is known before it. Each next bin is twice as long, up to the usual width.
 constexpr double first_bin = 0x1p-10;
-/// Minimal number of collisions in a bin for a jam: in all, plus a number for each disc. They take
-/// about a second. With so many collisions a run gains too little packing for its time.
+/// A bin shows a jam only if it has more collisions than this: a fixed number, plus a number for
+/// each disc. A run needs about a second for them, and its packing grows too little in this time.
 constexpr double enough_of_all = 0x1p20, enough_per_disc = 0x1p6;
 constexpr double ever_more = 3, rarer = 4;
 /// By the first rule a run ends only if its remaining time exceeds the time to the jam by this

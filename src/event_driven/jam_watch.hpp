@@ -5,7 +5,7 @@
 // Near a jam the room between discs shrinks steadily until a time t_J. The pressure and the speeds
 // grow as 1 / (t_J - t), because discs are compressed without loss. So the collision rate grows as
 // 1 / (t_J - t)^2, and no run reaches t_J. Two consequences are used:
-//   - if collisions are 4 times as frequent as some time ago, discs have room for as long again;
+//   - if collisions are 4 times as frequent as some time ago, discs have room for that time again;
 //   - if they are more than 3 times as frequent in one of two equal bins of time as in the bin
 //     before, discs have no room for another bin.
 // Few collisions are no evidence and cost little, so both rules need a minimal number of collisions

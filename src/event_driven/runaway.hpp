@@ -5,7 +5,7 @@
 //
 // A run ends if a disc is 2^17 times as fast as anything at the start: discs, surfaces, walls,
 // fields, falling bodies. The square root of the largest ratio of masses is a further factor,
-// because discs of equal energies differ by it. Only scenes with sliding surfaces have a limit.
+// because it is the ratio of speeds at equal energy. Scenes without sliding surfaces have no limit.
 #pragma once
 
 #include "scene/scene_parameters.hpp"

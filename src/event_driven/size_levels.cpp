@@ -81,7 +81,7 @@ double equivalent_radius(std::span<const SizeLevel> levels) {
     if (levels.size() == 1 && levels[0].smallest_radius == levels[0].largest_radius)
         return levels[0].largest_radius;
     double sum = 0, n = 0;
-    for (const SizeLevel& level : levels) { // from a disc's own radius to its level's largest
+    for (const SizeLevel& level : levels) { // mean of own radius and level's largest
         sum += (level.sum_of_radii + level.n_discs * level.largest_radius) / 2;
         n += level.n_discs;
     }

@@ -14,7 +14,7 @@
 
 namespace carrom {
 
-/// Marks the blocks that have to run again, on all ranks. **Collective.**
+/// Tests the block runs of all ranks, and marks the blocks that must run again. **Collective.**
 template <class Dynamics>
 typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::validate() {
     const PhaseClock::Scope scope(phases_, Phase::resolve);

@@ -68,13 +68,13 @@ private:
     double last_duration_ = 1;    ///< duration of the last window
     double rounds_lately_ = 0.05; ///< running mean of the number of rounds
     double n_rounds_ = 0;         ///< number of repeated rounds in the last window
-    Rollback last_;               ///< sums over the repeated rounds; the price is of the last one
+    Rollback last_;               ///< sums over the repeated rounds; the price of the last round
     Caution caution_;
 };
 
 /// The window for a higher speed bound. It is shorter, so that its reach stays the same. If the old
-/// bound was 0, because all discs were at rest until a wall reached them, it lasts at most as long
-/// as a flight over a diameter.
+/// bound was 0, because all discs were at rest until a wall reached them, the new window lasts at
+/// most as long as a flight over a diameter.
 BlockWindow shortened(BlockWindow window, double speed_bound, double diameter);
 
 } // namespace carrom

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cells of a device's discs: a box cut into rectangles, row after row. The discs of a cell are
-// stored together in any order, because no decision depends on this order.
+// stored together in any order, because no result depends on this order.
 //
-// Along a periodic axis the row of cells repeats. So a disc beyond the seam is found in a cell of
+// Along a periodic axis the row of cells repeats. So a disc beyond a side is found in a cell of
 // the box, as an image displaced by whole boxes; no disc is stored twice.
 #pragma once
 

@@ -3,9 +3,9 @@
 // copied to the host only if something reads them: measurements, checkpoints, lines of discs,
 // totals.
 //
-// The host chooses windows and reads a few numbers after each window. Micro-steps are not divided
-// on a device. If discs are fast, a window is one micro-step, and its cells are wide enough for the
-// flights in it.
+// The host chooses windows and reads a few numbers after each window. A device never divides a
+// micro-step into parts: if discs are fast, a window is one micro-step, and its cells are wide
+// enough for the flights in it.
 #pragma once
 
 #include <cstdint>

@@ -4,15 +4,15 @@
 // (serial_machine.hpp, cuda_machine.hpp) calls it for all i, so that the same code runs on a GPU
 // and, in tests, on the CPU.
 //
-//   PutIntoCells, Scatter    bring discs into the order of their cells
+//   PutIntoCells, Scatter    sort discs by their cells
 //   Predict                  finds the first candidate of each disc
 //
 // and for each micro-step
 //
 //   Collect      lists the discs whose first candidate is in this micro-step
-//   Match        takes pairs whose discs are each other's first candidate; other discs wait
+//   Match        marks discs as taken if they are each other's first candidate; other discs wait
 //   Waiting      rounds: if its partner has been taken, a disc searches again; then Match again
-//   Carry        carries out the events that have been taken
+//   Carry        carries out the events of the discs that have been taken
 //   Mark         lists the discs whose first candidate may have changed
 //   Renew        finds the first candidate of these discs
 //   EndMicroStep empties the lists, and cuts the window short if discs are too fast for it

@@ -61,7 +61,7 @@ template <class D> struct World {
     Window window;
     std::uint32_t n = 0;
     double squared_window_speed = 0; ///< square of the speed for which the reach is enough
-    double flown = 0;        ///< time of flights before the last sync that the sums still lack
+    double flown = 0;        ///< flight time before the last sync that stress sums still lack
     double stress_scale = 0; ///< 0: no stress is summed
 
     DiscState* discs = nullptr;

@@ -23,7 +23,7 @@ constexpr double step_margin = 20;
 constexpr std::uint64_t own_runs = 6;
 /// In radii: if differences are this large, roundings may decide which discs collide.
 constexpr double deciding = 0.1;
-/// In radii: the largest tolerance for a number with few digits if other numbers of its line have
+/// In radii: the largest tolerance for a number with few digits if other numbers of its step have
 /// more, because the number may have lost zeros at its end. If all lines are coarser than this, the
 /// next step cannot be computed from them.
 constexpr double coarsest_digit = 0.01;
@@ -121,7 +121,7 @@ bool Grader::grade_lines(std::int64_t step, const ExpectedDiscs& expected) {
     const Aim aim = has_left_runs_ ? aim_from_own_lines() : aim_at(expected);
     const bool is_right = hold(aim, step);
     if (!is_right && !(counts_points_ && are_possible(step))) return false;
-    if (!is_right) has_left_runs_ = true; // later steps no longer match the program's own run
+    if (!is_right) has_left_runs_ = true; // later steps no longer match Carrom's own run
     go_on_from_lines(step, aim.discs);
     return true;
 }
@@ -138,8 +138,8 @@ void Grader::go_on_from_lines(std::int64_t step, const std::vector<DiscState>& c
     written_before_ = step;
 }
 
-/// Whether this step can be graded. From the student's lines it needs the lines of the step before,
-/// with enough digits.
+/// Whether this step can be graded. Once the student's lines replace Carrom's run, grading needs
+/// the lines of the step before, with enough digits.
 bool Grader::can_grade(std::int64_t step) const {
     if (!has_left_runs_) return true;
     return own_before_ && step - written_before_ == 1 &&
@@ -159,8 +159,8 @@ bool Grader::hold(const Aim& aim, std::int64_t step) {
     return are_places_right && are_counters_right;
 }
 
-/// Returns false if step 0 is the input rounded to single precision. Then later steps are graded as
-/// if the student's numbers had as few digits.
+/// Returns false if step 0 is the input rounded to single precision and the tolerance is finer.
+/// Then later steps are graded as if the student's numbers had as few digits as a float.
 bool Grader::hold_precision(const Aim& aim) {
     const double unit = float_unit * setting_.box.longest();
     if (tolerance_ >= unit || !is_rounded_to_float(lines(), aim.discs, unit_)) return true;
@@ -173,7 +173,7 @@ bool Grader::hold_precision(const Aim& aim) {
 }
 
 /// Checks conditions that hold at any step and for any roundings: numbers are finite, and centres
-/// lie in the box. If points are counted, it is enough that the rule can continue from them.
+/// lie in the box. If points are counted, it is enough that the rule can continue from the numbers.
 bool Grader::are_possible(std::int64_t step) {
     const double longest = setting_.box.longest();
     // A disc may be beyond its wall until the end of the micro-step.
@@ -285,8 +285,8 @@ bool Grader::hold_to(const Aim& aim, std::int64_t step) {
     return true;
 }
 
-/// Accepts any result that a rounding can produce if roundings decide which discs collide. A choice
-/// between equal times does not depend on roundings, so a wrong choice is a mistake.
+/// Accepts any result that a rounding can produce if roundings decide which discs collide. The
+/// order of equal times does not depend on roundings, so a wrong order is a mistake.
 bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     for (const StudentLine& line : lines()) {
         if (aim.allowed[line.id] != unlimited) continue;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares a student's lines with the rule (rule.hpp, docs/classroom.md), step by step on one rank.
 //
-// At first lines are compared with the program's own run. Each disc may differ by the tolerance
+// At first lines are compared with Carrom's own run. Each disc may differ by the tolerance
 // plus the present size of roundings. Once roundings are as large as discs, two correct programs
 // differ. Then each step is compared with the rule applied to the student's own step before. If
 // points are counted, grading continues after a step that is missing or unreadable. Memory: N
-// lines. Time, in the second part: a step of the plain rule for each step.
+// lines. Time after Carrom's own runs: six steps of the plain rule for each step.
 #pragma once
 
 #include <algorithm>
@@ -26,12 +26,12 @@ namespace carrom {
 
 class Grader {
 public:
-    /// `scene` and `stream` must outlive this. With `counts_points` grading continues after a wrong
-    /// step, from the student's own lines.
+    /// `scene` and `stream` must outlive this object. With `counts_points` grading goes on after
+    /// a wrong step, from the student's own lines.
     Grader(const SceneParameters& scene, double tolerance, std::istream& stream,
            const std::string& name, bool counts_points);
 
-    /// Whether the student's lines have replaced the program's own runs, which are then not needed.
+    /// Whether the student's lines have replaced Carrom's own runs, which are then not needed.
     bool has_left_runs() const { return has_left_runs_; }
     /// Reads the lines of that step, if there are any, and compares them with the rule. `expected`
     /// is empty once `has_left_runs()` is true. Returns whether to grade the next step, which may
@@ -51,7 +51,7 @@ private:
     struct Aim {
         std::vector<DiscState> discs;
         double clock = 0;
-        /// Allowed difference of each disc, by id; infinite if roundings decide
+        /// Allowed difference of each disc, by id; infinite if other roundings move the disc far
         std::vector<double> allowed;
         std::vector<std::vector<DiscState>> others; ///< results of the runs with other roundings
     };

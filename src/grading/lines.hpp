@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the lines of discs in the output of a student's program one by one. Other lines, such as a
+// Reads from the output of a student's program the lines that list discs. Other lines, such as a
 // header or a time, contain no disc; they are skipped and listed in a remark.
 #pragma once
 
@@ -29,7 +29,7 @@ struct StudentLine {
 
 class StudentOutput {
 public:
-    /// `stream` must outlive this.
+    /// `stream` must outlive this object.
     StudentOutput(std::istream& stream, std::string name);
 
     /// Reads the next line of a disc; returns false at the end. Throws InputError if a word is not

@@ -24,8 +24,8 @@ constexpr const char* stop_at_wall = "stop at a wall";
 constexpr const char* overlap = "overlap";
 constexpr const char* corner = "corner";
 
-/// Small deviations from the rule come first, because the search reports the first mistake that
-/// produces the lines.
+/// Small deviations from the rule come first, because the search reports the first of all mistakes
+/// that explain the most lines.
 constexpr std::array known_mistakes{
     KnownMistake{Mistake::ties_by_higher_id, order,
                  "of collisions at equal times the one of the higher ids is kept"},

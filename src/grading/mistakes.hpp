@@ -30,13 +30,13 @@ struct SharedState {
 struct Explanation {
     const char* rule;    ///< the violated rule of docs/classroom.md
     const char* mistake; ///< the mistake in the student's program that produces these lines
-    /// Whether the mistake is a wrong choice between collisions at the same time
+    /// Whether the mistake is about collisions at the same time
     bool is_of_equal_times = false;
     std::size_t n_unexplained = 0; ///< number of lines that the mistake does not explain
 };
 
-/// The mistake that reproduces the line of disc `wrong` and most other lines, `micro_steps` after
-/// `state`. `given` is in the order of ids. Cost: a run of the plain rule for each mistake.
+/// The mistake that reproduces the line of disc `wrong` and as many other lines as possible,
+/// `micro_steps` after `state`. `given` is in the order of ids. Cost: some 30 runs of the rule.
 std::optional<Explanation> explain(const SharedState& state, std::int64_t micro_steps,
                                    const std::vector<GivenDisc>& given, DiscId wrong);
 
@@ -45,11 +45,11 @@ std::optional<Explanation> explain(const SharedState& state, std::int64_t micro_
 bool follows_rule(const SharedState& state, std::int64_t micro_steps,
                   const std::vector<DiscState>& discs, double clock);
 
-/// Lists the disc's contacts in the next micro-step by the rule, one line for each candidate.
+/// Lists the disc's contacts in the next micro-step by the rule, a line each for the first eight.
 std::string facts(const SharedState& state, DiscId id);
 
-/// Whether all lines are the discs at time 0 rounded to single precision, within the digits of the
-/// lines. `unit` is the factor of velocities.
+/// Whether all lines are the discs at time 0 rounded to single precision, within the lines' digits,
+/// and some line shows the rounding. `unit` converts velocities to lengths per step.
 bool is_rounded_to_float(const std::vector<StudentLine>& lines, const std::vector<DiscState>& discs,
                          double unit);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The score in parts of `carrom compare --points`. A step is right if the rule leads to it from the
+// The score of `carrom compare --points` in parts. A step is right if the rule leads to it from the
 // student's own step before. So a wrong rule costs only the steps in which it matters. A part that
 // the output lacks is left out of the sum, unless the task requires it.
 #pragma once
@@ -11,7 +11,7 @@
 namespace carrom {
 
 struct Points {
-    /// Whether each written step has all discs and the output ends at the right step
+    /// Whether no step is missing, each has one line for each disc, and none follows the last step
     bool are_lines_whole = true;
     bool are_in_order = true; ///< whether lines of each step are in the order of ids
     /// Unset if the output lacks this part, or if it was not graded

@@ -25,7 +25,7 @@ void advance(DiscState& disc, double time) {
 
 bool is_wall(const PlainRule::Candidate& candidate) { return candidate.q == Collision::wall; }
 
-/// The total order: by time, then the lower id, then wall before pair, then the other id.
+/// The total order of candidates: by time, the lower id, wall before pair, then the other id.
 auto place_in_order(const PlainRule::Candidate& c) {
     return std::make_tuple(c.t, c.p, is_wall(c) ? 0 : 1, c.q);
 }
@@ -180,8 +180,8 @@ bool PlainRule::is_first_of_subject(const Candidate& candidate, Mistake mistake)
     return true;
 }
 
-/// Applies the event-driven method inside the micro-step: after each collision, new collisions of
-/// its discs are searched.
+/// The mistake every_collision: uses the event-driven method inside the micro-step. After each
+/// collision, new collisions of its discs are searched.
 void PlainRule::keep_all_collisions(double m) {
     const auto sooner = [](const Candidate& a, const Candidate& b) {
         return place_in_order(a) < place_in_order(b);
@@ -225,7 +225,7 @@ void PlainRule::keep(const Candidate& candidate, double m) {
 
 /// Carries out each collision with the discs of the micro-step's start, as if it were the only one.
 /// A disc then flies on from its last collision. Its changes of velocity add up, or the last change
-/// wins, as in a program that writes the discs to a second array.
+/// alone counts, as in a program that writes the discs to a second array.
 void PlainRule::keep_from_start(const Candidate& candidate, double m) {
     const auto change = [this](DiscId id, const DiscState& made) {
         const DiscState& start = start_[id];
@@ -275,7 +275,7 @@ void PlainRule::bounce(DiscState& disc, double m, double t) const {
     advance(disc, m + t);
     bool x_reverses = tx == t || x_walls_.touches(disc.x, disc.vx);
     bool y_reverses = ty == t || y_walls_.touches(disc.y, disc.vy);
-    // Occurs only with the mistake every_candidate, after an earlier collision of the disc
+    // This occurs only with the mistake every_candidate, after an earlier collision of the disc
     if (!x_reverses && !y_reverses) {
         const auto gap = [](const RestingWalls<double>& walls, double x, double v) {
             return v == 0 ? never : v < 0 ? x - walls.low() : walls.high() - x;

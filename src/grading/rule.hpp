@@ -2,8 +2,8 @@
 // The time-stepped method in one process, with a switch for each mistake. `carrom compare` uses it
 // to find the mistake that produces a student's line.
 //
-// A micro-step tests all pairs whose paths may meet, sorts all candidates by the total order and
-// handles them in turn. Without a mistake it decides like the engine. Cost: up to N^2/2 tests.
+// A micro-step tests all pairs whose paths may meet, sorts the possible collisions (candidates) and
+// handles them in order. Without a mistake the result equals the engine's. Cost: up to N^2/2 tests.
 #pragma once
 
 #include <cstdint>
@@ -71,7 +71,7 @@ public:
     /// The discs in the order of ids, at `clock()`.
     std::span<const DiscState> discs() const { return discs_; }
     double clock() const { return static_cast<double>(micro_steps_ % setting_.sync_every); }
-    /// The candidates of the last micro-step, in the order in which they were decided.
+    /// The candidates of the last micro-step, in the order in which they were handled.
     std::span<const Candidate> candidates() const { return candidates_; }
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The run that a student's output is compared with, and two runs of the same scene with other
 // roundings. One begins with changed last bits; the other also uses the course program's formulas.
-// Their distance from the first run shows how large roundings have become.
+// Their differences from the first run show how large roundings have become.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct ExpectedDiscs {
 
 class ComparedRuns {
 public:
-    /// `ranks` must outlive this. **Collective.**
+    /// `ranks` must outlive this object. **Collective.**
     ComparedRuns(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                  const Communicator& ranks);
 
@@ -46,8 +46,8 @@ double drawn(std::uint64_t id, std::uint64_t seed);
 /// `place` with its last few bits changed at random; 0 stays 0.
 double nudged(double place, std::uint64_t id, std::uint64_t seed);
 
-/// The largest difference between the four numbers of two discs; `unit` is the factor of
-/// velocities.
+/// The largest difference between the four numbers of two discs; `unit` converts velocities to
+/// lengths per step.
 double difference(const DiscState& a, double clock_a, const DiscState& b, double clock_b,
                   double unit);
 

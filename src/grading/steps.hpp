@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a student's output step by step. The lines of a step may come in any order of ids, because
-// a program that prints them in another order can still be correct.
+// Reads a student's output step by step. If the lines of a step are not in the order of ids, that
+// is a problem, but the step can still be graded for points.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct WantedSteps {
 
 class StudentSteps {
 public:
-    /// `stream` must outlive this.
+    /// `stream` must outlive this object.
     StudentSteps(std::istream& stream, std::string name, const WantedSteps& wanted);
 
     bool is_due(std::int64_t step) const {
@@ -44,10 +44,10 @@ public:
     /// Describes what is wrong with the form of the lines, or is empty. The output's last step may
     /// have counters, even if it comes too early.
     const std::string& problem() const { return problem_; }
-    /// Whether every disc has a line and `problem` is only about the order of lines.
+    /// Whether every disc has exactly one line, but the lines are not in the order of ids.
     bool is_only_in_other_order() const { return is_whole_ && !is_in_order_; }
 
-    /// The message that `step` is missing if the next line is of another step; otherwise empty.
+    /// The message that a required `step` is missing, or that steps go back; otherwise empty.
     std::string missing_problem(std::int64_t step) const;
     /// The message that the output has a line after the last step.
     std::string more_problem() const;

@@ -4,11 +4,11 @@
 // rest, which the author of a scene may not expect.
 //
 // The box is covered with points that are two thirds of the smallest radius apart. A point is
-// blocked if the smallest disc there would overlap a fixed body by more than this distance, or if
-// the point is near a line across a gap that is too narrow (narrow_gaps.hpp). A flood fill finds
-// the connected regions of free points. So two regions are connected if the smallest disc fits
-// through the gap between them. A region at an open side is not closed. Cost: four bytes and a few
-// nanoseconds a point on each rank.
+// blocked if the smallest disc there would overlap a fixed body by more than this distance, if the
+// point is near a line across a gap that is too narrow (narrow_gaps.hpp), or if it is outside of a
+// box that is not a rectangle. A flood fill finds the connected regions of free points. So regions
+// are connected if the smallest disc fits through the gap between them. A region at an open side is
+// not closed. Cost: four bytes and a few nanoseconds a point on each rank.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ struct ShutInDiscs {
     std::uint64_t n_regions = 0;
 };
 
-/// Counts the discs, in any distribution over the ranks. Finds nothing if the box would need more
-/// than four million points. **Collective.**
+/// Counts the discs in closed regions; ranks may have any of the discs. Finds nothing if the box
+/// would need more than four million points. **Collective.**
 ShutInDiscs find_shut_in(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                          const Communicator& communicator);
 

@@ -9,7 +9,7 @@
 
 namespace carrom {
 
-/// Makes discs fixed bodies of the scene (set_frozen): those whose centres lie in a region of
+/// Makes some discs fixed bodies (set_frozen): discs whose centres lie in a region of
 /// `discs.freeze`, edges included, and those of a frozen group. The remaining discs get new ids
 /// from 0 on in the order of their old ids. Throws InputError on every rank if no disc freezes, or
 /// if all do. **Collective.**

@@ -30,7 +30,7 @@ void refuse_in_fixed_bodies(const SceneParameters& scene, const std::vector<Inpu
                             const Communicator& communicator);
 
 /// Returns every disc of the scene exactly once, on any rank. No rank has more than its share and a
-/// bounded chunk. Compressed starts and groups come from simulation/first_discs.hpp, because they
+/// bounded chunk. simulation/first_discs.hpp makes compressed starts and groups, because they
 /// need engines. `lines` is the stream of listed discs on rank 0, or null if the scene has a
 /// generator. Problems in it become an InputError on every rank. A generator gives the same discs
 /// for any number of ranks. **Collective.**

@@ -13,16 +13,16 @@ namespace carrom {
 
 namespace {
 
-// The limits of the number of proposals of a rank in a batch. With fewer proposals the exchange
+// The limits of the number of a rank's proposals in a batch. With fewer proposals the exchange
 // takes most of the time; more proposals need much memory.
 constexpr double least_proposals = 1 << 14, most_proposals = 1 << 20;
 constexpr std::uint64_t most_rounds = 4096; ///< largest number of rounds of a batch
-/// A batch should place at most this share of the discs, because later proposals of a placed disc
-/// in the same batch are useless.
+/// A batch should place at most this share of the unplaced discs, because later proposals of a
+/// placed disc in the same batch are useless.
 constexpr double most_placed_share = 0.25;
 
-/// The largest number of places that a batch should find, because every rank decides about all of
-/// these places, one after the other.
+/// The largest number of places that a batch should find, because every rank tests all of these
+/// places, one after the other.
 std::uint64_t most_found(std::uint64_t n_discs) {
     return std::max<std::uint64_t>(1024, n_discs / 1024);
 }
@@ -92,7 +92,7 @@ void InsertionBatch::find_free() {
 }
 
 /// Lists the proposals that overlap a free proposal of the same round and have a lower id than it.
-/// They count even if another overlap rejects them.
+/// They are listed even if they are themselves rejected because of other overlaps.
 void InsertionBatch::find_rivals() {
     rivals_.clear();
     std::vector<Notice> images; // free proposals and their periodic images

@@ -85,8 +85,8 @@ private:
     std::vector<std::uint64_t> free_in_rows_;
 };
 
-/// Finds the smallest number of rows with enough sites. The number is even, because a periodic box
-/// along y needs this.
+/// Finds the smallest even number of rows with enough sites. It is even, because a box that is
+/// periodic along y needs this.
 class RowSearch {
 public:
     RowSearch(const SceneParameters& scene, const Communicator& ranks)
@@ -108,7 +108,7 @@ public:
     }
 
 private:
-    /// Half the rows of a lattice without fixed bodies, less 10 %: the search begins with it.
+    /// The number with which the search begins: 90 % of half the rows without fixed bodies.
     std::uint64_t first_guess() const {
         const double area = scene_.area() / static_cast<double>(scene_.n_discs),
                      height = std::sqrt(area * per_row);

@@ -27,7 +27,7 @@ namespace {
 constexpr std::uint64_t most_idle_rounds = 10000;
 constexpr std::uint64_t most_starts = 10;
 
-/// While a larger share of proposals is accepted, rounds are judged one by one.
+/// While a larger share of proposals is accepted, each round has an exchange of its own.
 constexpr double most_placed_in_batches = 0.25;
 
 class Insertion {
@@ -45,7 +45,7 @@ public:
         for (const Species& one : scene_.effects.species) radii.push_back(one.radius);
         std::sort(radii.begin(), radii.end(), std::greater<>());
         radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
-        // The largest discs are placed first, because they would find no room among smaller ones.
+        // The largest discs are placed first, because few places among smaller ones are free.
         for (std::size_t first = 0, end = 0; first < radii.size(); first = end) {
             while (end < radii.size() && is_placed_with(radii[end], radii[first], radii.size()))
                 ++end;
@@ -55,8 +55,8 @@ public:
     }
 
 private:
-    /// Whether discs of this radius are placed together with the largest ones. Few radii are placed
-    /// one by one. Many radii are grouped, because each group needs a round or more.
+    /// Whether discs of this radius are placed together with the largest ones. If there are few
+    /// radii, each is placed separately; many are grouped, because a group needs a round or more.
     static bool is_placed_with(double radius, double largest, std::size_t n_radii) {
         constexpr std::size_t few_radii = 8;
         return radius == largest || (n_radii > few_radii && radius > 0.9 * largest);
@@ -87,7 +87,7 @@ private:
         bool are_over() const { return n_left == 0 || n_idle >= most_idle_rounds; }
     };
 
-    /// Judges rounds one by one while many proposals are accepted. **Collective.**
+    /// Runs one round after another while many proposals are accepted. **Collective.**
     void judge_one_by_one(Rounds& rounds) {
         proposal_grid_.emplace(box_.grid(box_.share()));
         for (double share_placed = 1;
@@ -104,7 +104,7 @@ private:
         RawVector<Notice>().swap(proposals_);
     }
 
-    /// Judges many rounds together. They need only one exchange, and give all threads enough work.
+    /// Runs many rounds together. They need only one exchange, and give all threads enough work.
     /// **Collective.**
     void judge_in_batches(Rounds& rounds, double smallest) {
         if (rounds.are_over()) return;
@@ -143,8 +143,8 @@ private:
         proposals_.erase(first_update, proposals_.end());
     }
 
-    /// Judges a round. Each thread takes a share of the proposals and first sorts it by x,
-    /// because neighbouring columns of cells are close in memory. The order does not affect the
+    /// Accepts or rejects the proposals of a round. Each thread first sorts its share of them by
+    /// x, because neighbouring columns of cells are close in memory. The order does not affect the
     /// result.
     void judge() {
         const auto n_shares = static_cast<std::size_t>(n_threads_);
@@ -207,7 +207,7 @@ private:
     int n_threads_;
     InsertionBox box_;
     PlacedDiscs placed_;
-    /// A grid of proposals, while rounds are judged one by one
+    /// A grid of a round's proposals, while rounds run one after another
     std::optional<PointGrid> proposal_grid_;
     std::vector<std::uint32_t> unplaced_; ///< ranks have different discs
     RawVector<Notice> proposals_;

@@ -3,11 +3,11 @@
 //
 // In round k every disc without a position proposes one, uniform in [r, L-r]^2, as a function of
 // (seed, id, k) alone. The proposal is rejected if it overlaps a placed disc, or a proposal of the
-// same round with a lower id. Otherwise the disc is placed there. A proposal is judged by the rank
+// same round with a lower id. Otherwise the disc is placed there. A proposal is tested by the rank
 // whose strip of x contains it; this rank also gets all proposals within a diameter of its strip. A
 // packing of 0.3 takes some 150 rounds and 3 proposals a disc; 0.5 takes 10,000 rounds and 66
 // proposals. The cost diverges towards 0.54, where random insertion jams. So when free places are
-// rare, rounds are judged in batches, by all threads (insertion_batch.hpp). Memory: about 75 bytes
+// rare, rounds run in batches, by all threads (insertion_batch.hpp). Memory: about 75 bytes
 // a disc, divided among the ranks.
 #pragma once
 

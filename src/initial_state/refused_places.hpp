@@ -105,8 +105,8 @@ private:
     std::vector<std::uint64_t> words_;
 };
 
-/// The surroundings of a few points, in a hash table. Positions near one of the points are always
-/// found; other positions are found only rarely.
+/// The surroundings of a few points, in a hash table. `may_be_near` is true for all positions near
+/// one of the points, and for few other positions.
 class NearFew {
 public:
     NearFew(std::size_t n_points, double reach) : per_length_(1 / (reach * (1 + 1e-9))) {

@@ -18,7 +18,7 @@ Velocity drawn_velocity(const SceneParameters& scene, DiscId id) {
     const double speed = scene.velocities == VelocityKind::maxwell
                              ? std::sqrt(random_exponential(random))
                              : std::numbers::sqrt3 * random.uniform();
-    // Turns the velocity in a box that is taller than wide: its gas is that of the turned box.
+    // A box that is taller than wide has the gas of the turned box, so its velocities are turned.
     const auto [vx, vy] = turned(longer_axis(scene.box), speed * direction.x, speed * direction.y);
     return {vx, vy};
 }

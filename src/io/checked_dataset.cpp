@@ -89,9 +89,9 @@ void add_parts_of(hid_t dataset, const std::string& name, std::set<std::string>&
     }
 }
 
-/// The files that all data sets of a file name as their parts. A list of groups replaces recursion,
-/// so that the stack does not grow with the file. Targets of soft links are also found through
-/// other links.
+/// The names of all files that virtual data sets in `file` have as parts. A loop over a list of
+/// groups replaces recursion, so that the stack does not grow with the file. Soft links are
+/// skipped, because their targets are also found through hard links.
 std::set<std::string> parts_named_in(hid_t file) {
     std::set<std::string> parts;
     struct Waiting {

@@ -32,8 +32,8 @@ void refuse_other_files(hid_t file, const std::string& path);
 /// The number of entries of an ascending column that are <= `last`.
 std::uint64_t count_up_to(hid_t file, const std::string& path, std::int64_t last);
 
-/// Throws FileError if the file cannot contain as many bytes as the data set has by its
-/// header, because that number of bytes is allocated.
+/// Throws FileError if the file is too small for the number of bytes that the data set's header
+/// gives, because that number of bytes is allocated.
 void check_storage(const Dataset& dataset, const std::string& name);
 
 /// Returns a whole column. Throws FileError.

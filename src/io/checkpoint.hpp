@@ -8,10 +8,10 @@
 // (H5MD; positions at the time of the step, in single precision). /carrom/checksums has checksums
 // of all bytes (checksums.hpp).
 //
-// Rank 0 makes the file and reserves its space on disk. Then each rank writes its share of the ids
-// through HDF5 and MPI-IO; reading works in the same way. Cost: 80 bytes a disc on disk; each disc
-// of another rank's share is sent once; 8 bytes a disc of memory, and 80 more for collective
-// transfers. A side column takes 8 bytes a disc on disk and 24 of memory.
+// Rank 0 makes the file and reserves its space on disk. Then each rank writes its share of ids
+// through HDF5 and MPI-IO; reading works in the same way. Cost: 80 bytes a disc on disk; a disc of
+// another rank's share is sent once; 8 bytes a disc of memory, 80 more for collective transfers. A
+// further column (core/side_columns.hpp) takes 8 bytes a disc on disk and 24 of memory.
 #pragma once
 
 #include <cstdint>
@@ -79,10 +79,10 @@ struct WriteSettings {
     bool is_collective = false; ///< whether MPI-IO chooses ranks that write for all (aggregators)
 };
 
-/// Writes `discs`, in any distribution, as a whole file or not at all: under another name, then
-/// synced to disk and renamed. `columns` are in the order of `discs`, if the header has any. Fills
-/// in the header's counters and hash. If any rank fails, every rank throws CollectiveError, code 4,
-/// and an older file of that name is unchanged. **Collective.**
+/// Writes `discs`, in any distribution over ranks, as a whole file or not at all: under another
+/// name, then synced to disk and renamed. `columns` are in the order of `discs`, if the header has
+/// any. Fills in the header's counters and hash. If any rank fails, every rank throws
+/// CollectiveError, exit code 4, and an older file of that name is unchanged. **Collective.**
 void write_checkpoint(const std::string& path, CheckpointHeader header,
                       std::span<const DiscState> discs, const Communicator& communicator,
                       const WriteSettings& settings = {}, const StoredSamples& samples = {},
@@ -91,12 +91,12 @@ void write_checkpoint(const std::string& path, CheckpointHeader header,
 struct Checkpoint {
     CheckpointHeader header;
     DiscStates discs;    ///< discs whose ids are in this rank's slab (slabs.hpp)
-    SideColumns columns; ///< columns of these discs
+    SideColumns columns; ///< further columns of these discs (core/side_columns.hpp)
     StoredSamples samples;
 };
 
-/// Reads a checkpoint. If the file is damaged, of version 0.1, or not a checkpoint, every rank
-/// throws CollectiveError, code 2, with the reason after the path. **Collective.**
+/// Reads a checkpoint. If the file is damaged, of version 0.1, or no checkpoint, every rank throws
+/// CollectiveError (exit code 2) with the reason after the path. **Collective.**
 Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator);
 
 /// Reads all bytes of a checkpoint and checks them by its checksums; returns its

@@ -55,7 +55,7 @@ struct SampleColumn {
     const char* path;
     double FirstPlace::* field;
     bool StoredSamples::* is_there;
-    double most; ///< the largest valid value; in box edges if `in_sides`
+    double most; ///< largest valid value; in units of box edges if `in_sides`
     bool in_sides = false;
 };
 inline constexpr double largest_double = std::numeric_limits<double>::max();

@@ -26,7 +26,7 @@ struct DiscTarget {
     std::function<void(std::span<const DiscState>, std::byte*)> put;
 };
 
-/// Side columns of the discs in this rank's pieces (pieces.hpp), in the order of ids.
+/// Side columns (core/side_columns.hpp) of the discs in this rank's pieces, in the order of ids.
 struct SideOfPieces {
     DiscId first = 0;
     SideColumns columns;

@@ -80,9 +80,9 @@ struct Checksums {
 Checksums read_checksums(hid_t file);
 
 /// Whether the file's bytes contain the text of checksums or a name in /carrom/run, even where HDF5
-/// no longer finds them. Only checkpoints contain them. Both are searched, in different pages,
-/// because a single damaged link can hide both from HDF5. Reads the whole file. Called on one rank;
-/// throws FileError.
+/// no longer finds them. Only checkpoints contain them. Both are searched, because they lie in
+/// different pages and one damaged link can hide both from HDF5. Reads the whole file. Called on
+/// one rank; throws FileError.
 bool has_traces_of_checkpoint(const std::string& path);
 
 /// The checksum of a file without `left_out`. Called on one rank; throws FileError.

@@ -16,7 +16,7 @@ constexpr std::uint64_t rows_at_a_time = std::uint64_t{1} << 16;
 /// Collects differences of numbers, and keeps a text about the first one.
 class Differences {
 public:
-    /// `where()` is called only for a difference.
+    /// `where()` returns the text of the place; it is called only if the numbers differ.
     template <class Where>
     void compare(double a, double b, const std::string& what, const Where& where) {
         // Equal, or both not a number. Zeros of either sign are equal, as in the state hash.
@@ -46,7 +46,7 @@ std::string column_text(const FileSummary& summary, const std::string& column) {
     return column;
 }
 
-/// `name` returns the name of a row.
+/// `name` is the text before the number of a row in messages, such as "step 10, disc".
 void compare_rows(const FrameFile& a, const FrameFile& b, std::size_t frame,
                   const std::string& name, Differences& differences) {
     const FileSummary &first = a.summary(), &second = b.summary();

@@ -152,7 +152,7 @@ void check_room(const std::string& folder, std::uint64_t bytes) {
         fail_with_errno("its file system cannot be asked");
     }
     const std::uint64_t room = std::uint64_t{status.f_bavail} * status.f_frsize;
-    // Some file systems do not support this and report 0 of 0.
+    // Some file systems do not support this and report 0 of 0 free blocks.
     if (status.f_blocks > 0 && room < bytes)
         throw FileError(
             fmt::format("No space left on device: {} bytes are needed, {} are free", bytes, room));

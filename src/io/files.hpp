@@ -122,8 +122,8 @@ std::string folder_of(const std::string& path);
 
 /// The text of an error, with advice if the limit of open files is too low.
 std::string with_remedy(const FileError& error);
-/// The error's text after `path`, with advice. If the machine is the cause, `code` changes from bad
-/// input to a failed rank.
+/// The error's text after `path`, with advice. If this machine is the cause, a `code` of bad input
+/// is replaced by that of a failed rank.
 std::string described(const FileError& error, const std::string& path, ExitCode& code);
 
 /// Runs `act` on every rank. If it throws FileError on any rank, every rank throws CollectiveError

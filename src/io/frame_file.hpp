@@ -21,7 +21,7 @@ struct FileSummary : RecordedSystem {
     /// Whether the file has checksums of all its bytes, as all files of this version do.
     bool has_checksums = false;
     /// The columns that the file has, in the scene's units. For discs: x, y, vx, vy, collisions
-    /// with discs and walls, computed fields, images, then the side columns (side_columns.hpp).
+    /// with discs and walls, computed fields, images, then side columns (core/side_columns.hpp).
     std::vector<std::string> columns;
     std::uint64_t n_rows = 0;         ///< number of rows: discs, or collisions
     std::size_t bytes_per_number = 8; ///< size of a trajectory's positions and velocities

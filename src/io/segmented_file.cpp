@@ -160,7 +160,7 @@ void SegmentedFile::make_segment() {
     const std::string path = segment_path(path_, segment.name);
     std::error_code error;
     std::filesystem::create_directory(folder_of(path), error); // the run's folder must exist
-    ::unlink(path.c_str());                                    // a file that a killed run has left
+    ::unlink(path.c_str());                                    // removes a file of a killed run
     h5::create_file(path, [&](hid_t file) {
         for (const RecordedColumn& column : columns_) {
             const h5::Dataset dataset = h5::create_dataset(file, column.path, column.type,

@@ -44,23 +44,23 @@ public:
     SegmentedFile(const std::string& path, std::vector<RecordedColumn> columns, Build build,
                   const Communicator& communicator);
 
-    /// Makes a new file without rows, which replaces any other. If this or any other
-    /// call fails, every rank throws CollectiveError, code 4, and the file is as it
-    /// was at the last commit. **Collective.**
+    /// Makes a new file without rows, which replaces any other. If this or any other call fails,
+    /// every rank throws CollectiveError (exit code 4), and the file is as it was at the last
+    /// commit. **Collective.**
     void begin();
 
     /// Continues an existing file after `check` has accepted it, cut back to the rows whose number
-    /// in the column `step` is at most `last`. Returns false if there is no file. Reads all bytes,
-    /// and throws code 2 if columns differ or a byte is damaged. Changes nothing on disk: the next
-    /// commit does, and must come before rows are added. **Collective.**
+    /// in the column `step` is at most `last`. Returns false if there is no file. Reads all bytes;
+    /// throws with exit code 2 if columns differ or a byte is damaged. Changes nothing on disk: the
+    /// next commit does, and must come before rows are added. **Collective.**
     bool go_on(const std::string& step, std::int64_t last,
                const std::function<void(hid_t file)>& check);
 
     /// Makes the rows so far permanent and visible to readers. **Collective.**
     void commit();
 
-    /// Runs `act` on rank 0, which does the rest of an addition alone. `finish_addition` throws its
-    /// errors later, because rank 0 must first receive everything that other ranks send.
+    /// Runs `act`, a part of adding rows, on rank 0 alone. `finish_addition` throws its errors
+    /// later, because rank 0 must first receive everything that other ranks send.
     template <class Act> void attempt(const Act& act) {
         if (!communicator_.is_root() || !failure_.empty()) return;
         try {

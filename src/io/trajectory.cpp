@@ -225,7 +225,7 @@ private:
     std::vector<std::uint64_t> slab_; ///< the collected words of each disc
 };
 
-/// A field of some discs in the file's types.
+/// The bytes of a field of some discs, in the file's types.
 std::vector<std::byte> bytes_of(const Field& field, const CollectedWords& collected,
                                 std::span<const std::uint64_t> slab) {
     const bool is_single = H5Tequal(field.type, H5T_IEEE_F32LE) > 0;

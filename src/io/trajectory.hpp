@@ -28,7 +28,7 @@ struct TrajectoryLayout {
     bool has_position = true, has_velocity = true, has_collisions = false;
     bool has_image = false;
     ComputedFieldSet computed{}; ///< computed fields in each frame
-    SideColumnSet columns;       ///< side columns in each frame
+    SideColumnSet columns;       ///< side columns (core/side_columns.hpp) in each frame
     bool is_single = true;       ///< numbers are float32 instead of float64
     /// Description of the run; if its text is empty, the file does not name its run
     CheckpointHeader run;
@@ -43,14 +43,14 @@ public:
                const Communicator& communicator);
     ~Trajectory();
 
-    /// Replaces any other file by a new one. If this or any other call fails every rank throws
-    /// CollectiveError, code 4, and the file is as it was at the last commit. **Collective.**
+    /// Replaces any other file by a new one. If this or any other call fails, every rank throws
+    /// CollectiveError, exit code 4, and the file stays as at the last commit. **Collective.**
     void begin();
 
     /// Continues the file, cut back to frames up to `step`, or makes a new one if there is none.
-    /// Reads all of it, and throws code 2 if its layout differs or it is damaged. Nothing changes
-    /// on disk before `commit`, which must come before frames are added. Returns on rank 0 the step
-    /// of the last remaining frame, or -1. **Collective.**
+    /// Reads all of it; throws with exit code 2 if its layout differs or it is damaged. Nothing
+    /// changes on disk before `commit`, which must come before frames are added. Returns on rank 0
+    /// the step of the last remaining frame, or -1. **Collective.**
     std::int64_t go_on(std::int64_t step, const DifferenceFrom& difference_from = {});
     /// The step of the last frame before `go_on` has cut the file back, on rank 0; -1 if there was
     /// none.

@@ -77,7 +77,7 @@ double free_radius_in(const Shape& shape, double length, double height, double r
     return std::min({nearest, length, height}) / 2 - radius;
 }
 
-/// Spreads the sites over the box.
+/// Stretches the lattice so that it fills the box, and sets its free radius.
 void place(Shape& shape, const Box& box, double radius) {
     Lattice& lattice = shape.lattice;
     const auto [length, height] = turned(lattice.axis, box.x, box.y);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The lattice of N discs between walls that has the widest gaps, and random shifts of its discs
-// that close none of the gaps.
+// that never make discs overlap.
 //
 // It tries a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1 sites),
 // stretched to fill the box, with every number of rows along the longer side and then along the

@@ -32,8 +32,8 @@ inline constexpr double largest_stretch = 1e-4;
 /// The lattice for n_discs discs, with rows along x or y; nothing if none fits.
 std::optional<TriangularLattice> triangular_lattice(std::uint64_t n_discs, const Box& box);
 
-/// The keys of the nearest lattice that fits, with about as many discs in a box of about the same
-/// shape, such as "discs.count = 120, box.size = [10, 10.392305] (10 x 12)".
+/// The scene keys of the nearest lattice that fits, with about n_discs discs in a box of about the
+/// same shape, such as "discs.count = 120, box.size = [10, 10.392305] (10 x 12)".
 std::string nearest_triangular(std::uint64_t n_discs, const Box& box);
 
 } // namespace carrom

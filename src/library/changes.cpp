@@ -37,7 +37,7 @@ public:
           rounding_(32 * 0x1p-53 * scene_.box.longest()),
           fixed_bodies_(scene_.box, scene_.radius * size_, scene_.effects) {}
 
-    /// Why a disc cannot be there; empty if it can.
+    /// The reason why a disc cannot be at its position; empty if it can be there.
     std::string problem(const Disc& disc) const {
         const double radius = species_.of(disc.id).radius * size_;
         const Origin& origin = scene_.origin;
@@ -107,8 +107,8 @@ void apply(const Disc& disc, const Change& change, const DiscState& shown, const
     }
 }
 
-/// Throws one problem if smooth discs are given spins, because all have the same reason.
-/// **Collective.**
+/// Throws a single problem if smooth discs are given spins, because the reason is the same for all
+/// of them. **Collective.**
 void refuse_spins_of_smooth(const std::vector<Disc>& discs, const Run& run) {
     const bool have_spins = !run.system().spins().empty();
     const bool are_given = std::ranges::any_of(discs, [](const Disc& d) { return d.spin != 0; });

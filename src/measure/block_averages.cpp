@@ -15,8 +15,8 @@ namespace {
 
 /// In long runs samples are at least this many micro-steps apart.
 constexpr std::int64_t usual_interval = 64;
-/// A run of so many steps samples each step at first. Its some hundred samples more cost nothing in
-/// the long run, and nobody knows yet at which step a user of the library stops.
+/// A run of at least this many steps takes a sample at each step at first. These hundred or so
+/// extra samples cost little in a long run, and a user who stops early gets errors.
 constexpr std::int64_t many_steps = 1'000'000;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -50,8 +50,8 @@ void BlockAverages::begin() {
     blocks_.clear();
 }
 
-/// Samples of energies that jump keep their phases between syncs, so their interval does not
-/// change.
+/// Whether samples are taken at each step at first. They are not if effects make the energy jump at
+/// syncs, because the interval of such samples is chosen to suit the syncs.
 bool BlockAverages::begins_with_steps() const {
     return system_.last_step >= many_steps && !does_energy_jump(run_.scene.effects);
 }
@@ -62,8 +62,8 @@ bool BlockAverages::is_short(const Block& whole, double collisions_per_disc) con
             2 * whole.pairs < collisions_per_disc * system_.n_discs);
 }
 
-/// A time between samples of at most `steps`. If possible, it is chosen so that samples fall on
-/// different times between two syncs.
+/// Returns the number of steps between samples, at most `steps`. If possible, it is chosen so that
+/// successive samples reach all steps between two syncs.
 std::int64_t BlockAverages::between_syncs(std::int64_t steps) const {
     for (std::int64_t less = steps; less > steps / 2; --less)
         if (std::gcd(less * system_.micro_steps, system_.sync_every) ==
@@ -166,7 +166,7 @@ void BlockAverages::keep(KeptNumbers& kept) {
     if (kept.is_right()) interval_.emplace(run_.system, run_.ranks, pending, last);
 }
 
-/// The blocks are the last numbers, so that their count need not be stored.
+/// Stores or restores the blocks. They come last, so that their count need not be stored.
 void BlockAverages::keep_blocks(KeptNumbers& kept) {
     if (!kept.is_restored())
         for (Block& block : blocks_) block.keep(kept);
@@ -237,7 +237,7 @@ void BlockAverages::fill_pressures(Averages& result, const Block& whole) const {
     });
 }
 
-/// Equations (13c) and (19a) of Li et al. 2022: beta P from collisions and time; R^2
+/// Equations (13c) and (19a) of Li et al. 2022: beta P from counts of collisions and the time. R^2
 /// is the sum of the squares of all velocities, and kT = R^2 / (2 N).
 void BlockAverages::fill_counted_pressures(Averages& result, const Block& whole,
                                            const MotionSample& sample) const {
@@ -298,8 +298,8 @@ Averages BlockAverages::averages() const {
     return result;
 }
 
-/// Uses an asymptotic series from 64 on (Tricomi and Erdelyi 1951), and Gamma(n + 1) =
-/// n Gamma(n) below.
+/// Uses an asymptotic series (Tricomi and Erdelyi 1951) for n of 64 or more. Smaller n are first
+/// raised to this range by Gamma(n + 1) = n Gamma(n).
 double gamma_ratio(double n) {
     double factor = 1;
     for (; n < 64; n += 1) factor *= n / (n + 0.5);

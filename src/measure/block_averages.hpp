@@ -2,17 +2,17 @@
 // The averages of every run. Their errors come from blocks of equal length in time. This
 // measurement is always on, and has its own sampling times.
 //
-// A block is a number of steps. When there are `most_blocks`, every two of them are joined, and
-// later blocks are twice as long. The discs are sampled at fixed steps, which do not depend on
+// A block covers a number of steps. When there are `most_blocks` blocks, they are joined in pairs,
+// and later blocks are twice as long. The discs are sampled at fixed steps, which do not depend on
 // syncs. Between two samples the integrals of stress and energy are exact (engine/stress_sums.hpp),
 // and so are counts of collisions. Mean speed and kurtosis are assumed to change linearly. In long
 // runs samples are 64 micro-steps or a sync interval apart, whichever is longer; short runs and
-// changing energies need closer ones. Price of a sample: two passes over the discs, 5 ns a disc.
+// changing energies need closer samples. Cost of a sample: two passes over the discs, 5 ns a disc.
 //
 // A run planned for a million steps or more begins with samples each step. Its first blocks are
-// single steps, so that a user who stops early has errors. Velocities are correlated over some
-// collisions, which blocks of a short time cannot show, so an error needs enough collisions. With
-// these limits the scatter between runs is at most 1.3 times the error.
+// single steps, so that a user who stops early gets error estimates. Velocities stay correlated
+// over several collisions, which short blocks cannot show, so an error needs enough collisions.
+// With these limits the scatter between runs is at most 1.3 times the estimated error.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,9 @@
 
 namespace carrom {
 
-/// What an error needs in a run that begins with blocks of single steps: blocks, and collisions of
-/// all discs together. Averages of speeds and of single components of the pressure need so many
-/// collisions of each disc.
+/// In a run that begins with blocks of single steps, an error estimate needs this many blocks, and
+/// this many collisions of all discs together. Averages of speeds and of single pressure components
+/// need this many collisions of each disc.
 constexpr std::size_t fewest_short_blocks = 16;
 constexpr double fewest_collisions = 32;
 
@@ -74,7 +74,7 @@ private:
     Block block_up_to(std::int64_t step, const MotionSample& sample) const;
     void keep_blocks(KeptNumbers& kept);
     bool lost_discs() const;
-    /// In a run that begins with single steps an error needs `collisions` of each disc.
+    /// In a run that begins with blocks of single steps an error needs `collisions` per disc.
     template <class Value>
     Estimate estimate(const Block& whole, const Value& value, double collisions = 0) const;
     void fill_pressures(Averages& result, const Block& whole) const;

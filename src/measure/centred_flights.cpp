@@ -55,7 +55,7 @@ std::array<double, 3> mean_flights(std::vector<Flight>& flights, const FlightBou
         subtract_mean(flights, &Flight::first_velocity, axis, n, bounds.velocity, heaviest, ranks);
         subtract_mean(flights, &Flight::velocity, axis, n, bounds.velocity, heaviest, ranks);
     }
-    // The mean may be as large as the numbers, so a difference may be twice as large.
+    // The mean may be as large as the largest term, so a difference may be twice as large.
     const auto square = [&](std::size_t axis) {
         return sum_over(flights, n, 4 * bounds.way * bounds.way, ranks,
                         [&](const Flight& flight) { return flight.way[axis] * flight.way[axis]; });

@@ -2,11 +2,11 @@
 // Displacements of discs, and their velocities at the beginning and now, relative to the centre of
 // mass.
 //
-// If nothing stops the discs' common motion V along a periodic axis, it adds V^2 t^2 to mean square
-// displacements and V^2 to mean products of velocities. This motion is not diffusion and depends on
-// the frame, so it is subtracted from each disc. A single disc keeps this motion, because it would
-// otherwise be at rest. Discs that give momentum to fixed bodies, walls or a thermostat keep it,
-// too, because the centre of mass of N such discs diffuses with D / N.
+// If nothing stops the discs' common velocity V along a periodic axis, it adds V^2 t^2 to mean
+// square displacements and V^2 to mean products of velocities. This motion is not diffusion and
+// depends on the frame, so it is subtracted from each disc. It is not subtracted from a single
+// disc, which would then be at rest, nor from discs that give momentum to fixed bodies, walls or a
+// thermostat, because the centre of mass of N such discs diffuses with D / N.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct Flight {
     double mass = 1;
 };
 
-/// Bounds of the components, the same on all ranks.
+/// Upper bounds of the components' absolute values, the same on all ranks.
 struct FlightBounds {
     double way = 0, velocity = 0;
 };

@@ -25,9 +25,9 @@ Moments thermal_of(BlockNumbers cell) {
     return {sampled[sample_flux_xx] / n, sampled[sample_flux_xy] / n, sampled[sample_flux_yy] / n};
 }
 
-/// The sum of m c^2 c / 2 for velocities c relative to the mean (vx, vy), computed from the same
-/// sum for velocities in the box. `energy` and `v` are along one axis, and (along_x, along_y) is
-/// the row of the momentum flux for this axis.
+/// One component of the sum of m c^2 c / 2, for velocities c relative to the mean (vx, vy).
+/// `energy` and `v` are this component of the same sum for velocities in the box and of the mean,
+/// and (along_x, along_y) is the row of the momentum flux for this axis.
 double heat_about(double energy, double v, double along_x, double along_y, double flux, double mass,
                   double vx, double vy) {
     return energy - v * flux / 2 - vx * along_x - vy * along_y + mass * (vx * vx + vy * vy) * v;

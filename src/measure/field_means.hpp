@@ -2,18 +2,18 @@
 // Fields of a cell over a block of samples, relative to the cell's mean velocity in the block.
 //
 // The mean velocity V of a block comes from the same discs, so it contains part of their thermal
-// motion: kT comes out too low by D kT / n, with n counts of discs in the block and D degrees of
-// freedom. Consecutive samples contain the same discs, so D may have any value from 1 to the number
-// s of samples. D follows from the scatter of the cell's velocities V_k at the samples:
+// motion: kT comes out too low by D kT / n, where n counts discs over all samples and D counts
+// degrees of freedom. Consecutive samples contain the same discs, so D may have any value from 1 to
+// the number s of samples. D follows from the scatter of the cell's velocities V_k at the samples:
 //
 //   sum_k sum_i m (v - V)^2  =  sum_k sum_i m (v - V_k)^2  +  sum_k M_k (V_k - V)^2
 //      mean (n - D) kT                mean (n - s) kT               mean (s - D) kT
 //
-// The middle sum is independent of other samples, so it gives kT, and the missing part is D kT. The
-// n_k discs of a sample have the weight n_k / (n_k - 1). With equal weights, cells that fast discs
-// have crossed would count too much, because they hold fewer discs. In a flow that changes within
-// the block the last sum is larger than thermal motion can make it. This sum then belongs to the
-// fields relative to V, and the correction uses D = 1.
+// The middle sum does not depend on D, so it gives kT, and the missing part is D kT. The n_k discs
+// of a sample have the weight n_k / (n_k - 1). With equal weights, samples of a cell after fast
+// discs have left it would count too much, because they contain fewer discs. In a flow that changes
+// within the block the last sum is larger than thermal motion can make it. This sum then belongs to
+// the fields relative to V, and the correction uses D = 1.
 #pragma once
 
 #include <array>
@@ -25,16 +25,16 @@
 
 namespace carrom {
 
-/// Sums over the samples of a block, the same on all ranks. Squares and flows of heat are relative
-/// to V_k, the cell's velocity in sample k. Weights correct for each disc's own share of V_k.
+/// Sums over the samples of a block, the same on all ranks. Fluxes and heat flows are relative to
+/// V_k, the cell's velocity in sample k. Weights correct for each disc's own share of V_k.
 enum SampleMoment : std::uint8_t {
     sample_count,   ///< number of samples with a disc in the cell
-    sample_drift,   ///< sum of M_k V_k^2
-    sample_in_pair, ///< discs in samples with two or more discs
+    sample_drift,   ///< sum of M_k V_k^2, where M_k is the mass in the cell in sample k
+    sample_in_pair, ///< number of discs, in samples with two or more discs
     sample_flux_xx,
     sample_flux_xy,
     sample_flux_yy,
-    sample_in_three, ///< discs in samples with three or more discs
+    sample_in_three, ///< number of discs, in samples with three or more discs
     sample_heat_x,
     sample_heat_y,
     n_sample_moments
@@ -48,11 +48,11 @@ using SampleSums = std::span<double, n_sample_moments>;
 /// Adds one sample of a cell, with the discs of all ranks, to `sums`.
 void add_sample(const FieldSums& sample, std::size_t cell, SampleSums sums);
 
-/// kT of all cells of a table in a block, weighted by discs; `sums` has one cell after another.
+/// Mean kT of a table's cells in a block, weighted by discs; `cells` has one cell after another.
 double common_temperature(std::span<const double> cells);
 
-/// The table's columns from `count` on. `common` is kT of all cells. Temperatures are NaN if no
-/// sample has two discs, and flows of heat are NaN if no sample has three.
+/// The table's columns from `count` on. `common` is the mean kT of all cells. Temperatures are NaN
+/// if no sample has two discs. So are heat flows if no sample has three, unless the flow changes.
 std::vector<double> fields_of(BlockNumbers cell, double common, double n_samples, double steps,
                               double area);
 

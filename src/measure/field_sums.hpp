@@ -41,24 +41,24 @@ enum FieldMoment : std::uint8_t {
     n_field_moments
 };
 
-/// Stress xx, xy, yy, and flow of energy along x and y.
+/// The sums over collisions: stress xx, xy, yy, and flow of energy along x and y.
 inline constexpr std::size_t n_contact_moments = 5;
 inline constexpr std::size_t n_disc_moments = n_field_moments - n_contact_moments;
 using ContactUnits = std::array<std::int64_t, n_contact_moments>;
 
 /// x and y of a vector; GCC and Clang compute both at once.
 using Pair [[gnu::vector_size(16)]] = double;
-/// Two integers of 64 bits, and two of 32 bits.
+/// Pairs of integers, of 64 bits and of 32 bits.
 using PairOfWords [[gnu::vector_size(16)]] = std::uint64_t;
 using PairOfCells [[gnu::vector_size(8)]] = std::int32_t;
 
-/// Stress xx and yy, stress xy in both members, and flow of energy.
+/// Terms of a collision: stress xx and yy; stress xy twice; flow of energy along x and y.
 struct ContactTerms {
     Pair normal, shear, flow;
 };
 
-/// The inverse width of cells, and the origin in widths of cells. The first cell is column 1 and
-/// row 1, so that positions in cells are positive and rounding towards 0 finds the cell.
+/// Inverse widths of cells, and the offset from scaled positions to columns and rows. The first
+/// cell is column 1 and row 1, so positions are positive and rounding towards 0 finds the cell.
 struct PlacedGrid {
     PlacedGrid(std::size_t n_x, std::size_t n_y, const Extent& box)
         : per_length{static_cast<double>(n_x) / (box.x_high - box.x_low),
@@ -68,7 +68,7 @@ struct PlacedGrid {
     Pair per_length, origin;
 };
 
-/// Column and row; negative for positions beyond 2^31 cells.
+/// Column and row. Positions must lie within 2^31 cells of the origin.
 inline PairOfCells cell_at(Pair place) { return __builtin_convertvector(place, PairOfCells); }
 inline bool are_same(PairOfCells a, PairOfCells b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -76,7 +76,7 @@ inline bool are_same(PairOfCells a, PairOfCells b) {
 
 class FieldSums {
 public:
-    /// `speed` and `length` are typical values, the same on all ranks, from which units follow.
+    /// `speed` and `length`: typical values, the same on all ranks, which define the sums' units.
     FieldSums(std::size_t n_cells, double speed, double length);
 
     std::size_t size() const { return counts_.size(); }
@@ -97,8 +97,8 @@ public:
         else
             for (std::size_t k = 0; k < n_disc_moments; ++k) sums[k].add(terms[k]);
     }
-    /// The terms that a collision adds, in units of the sums. Minus half of impulse times
-    /// `velocity` is the energy that p gives to q.
+    /// The terms that a collision adds, in units of the sums. `velocity` must be such that p gives
+    /// to q the energy -(`impulse_of_p` * `velocity`) / 2.
     ContactTerms terms_of(Pair impulse_of_p, Pair from_p_to_q, Pair velocity) const {
         const Pair twice = sum_of(impulse_of_p * velocity);
         return {impulse_of_p * from_p_to_q * normal_scales_,
@@ -117,8 +117,8 @@ public:
         if (++gathered.n == most_terms) [[unlikely]]
             hand_over(cell);
     }
-    /// The terms in whole units, as `rounded` returns them. The hardest collisions are cut at 2^62
-    /// units.
+    /// The terms as whole units: stress xx, xy, yy, and flow of energy along x and y. Terms of the
+    /// hardest collisions are limited to 2^62 units.
     static ContactUnits units_of(const ContactTerms& terms);
     void add_contact(std::size_t cell, const ContactUnits& units) {
         for (std::size_t k = 0; k < n_contact_moments; ++k)
@@ -136,14 +136,14 @@ public:
     std::vector<std::uint64_t> joined_words(const Communicator& ranks) const;
     /// Adds words of `joined_words`. Returns false if their number is wrong.
     bool add_words(const std::vector<std::uint64_t>& words);
-    /// Adds the cells of `other` from number `first` on.
+    /// Adds to each cell one cell of `other`, beginning with the cell `first` of `other`.
     void add(const FieldSums& other, std::size_t first);
 
     std::uint64_t count(std::size_t cell) const { return counts_[cell]; }
     double value(std::size_t cell, FieldMoment moment) const {
         return sum_at(cell, moment).value();
     }
-    /// For cells of `n_species` species, one species after another: sums over species in each cell.
+    /// The sums over `n_species` species, whose cells are stored one species after another.
     FieldSums over_species(std::size_t n_species) const;
     /// The sums over all cells, as a single cell.
     FieldSums total() const { return over_species(size()); }
@@ -154,7 +154,7 @@ private:
     static constexpr double usual_mass = 4, usual_speeds = 8;
 
     static Pair turned(Pair pair) { return Pair{pair[1], pair[0]}; }
-    /// The sum of both numbers, in both places.
+    /// The sum of both numbers, in both elements of the result.
     static Pair sum_of(Pair pair) { return pair + turned(pair); }
 
     /// A double of this size has no fraction. So adding it to a smaller number rounds the number to
@@ -181,15 +181,15 @@ private:
     std::array<double, n_disc_moments> scales_{}; ///< scales of the sums over discs
     /// Scales of the sums over collisions, with the factors of -1 and 1/2 that their terms have.
     Pair normal_scales_{}, shear_scales_{}, flow_scales_{};
-    double usual_square_ = 0; ///< the terms of slower discs of a usual mass have at most 62 bits
+    double usual_square_ = 0; ///< terms of slower discs below `usual_mass` have at most 62 bits
     std::vector<std::uint64_t> counts_;
     std::vector<ExactSum> sums_;     ///< the sums without the terms in `gathered_`
     std::vector<Gathered> gathered_; ///< gathered terms of each cell
 };
 
 /// Calls `act(column, row, from, to)` for each part of the line from (u, v) to (u + du, v + dv), in
-/// widths of cells. `from` and `to` are shares of the line, in order; columns and rows may lie
-/// outside the grid.
+/// widths of cells. `from` and `to` are fractions of the line's length, in ascending order; columns
+/// and rows may lie outside the grid.
 template <class Act> void for_each_part_of_line(double u, double v, double du, double dv, Act act) {
     // Rounds down without std::floor, which would be a function call
     const auto cell = [](double place) {

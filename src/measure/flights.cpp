@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// Records by how many box lengths syncs bring discs back, because these are part of the
-/// displacement.
+/// Counts the box lengths by which syncs move discs back into the box, because they are part of
+/// displacements.
 void Flights::follow() {
     if (follows_lengths()) lengths_.emplace(run_.scene.box, run_.system, run_.ranks);
 }
@@ -75,7 +75,7 @@ std::array<double, 3> Flights::means(std::span<const DiscState> discs, std::uint
     return mean_flights(flights, bounds, run_.scene, run_.ranks);
 }
 
-/// Sends each first position to the rank whose run of ids contains it.
+/// Sends each first position to the rank whose range of ids contains the disc.
 void Flights::place_first(std::span<const FirstPlace> places) {
     const std::uint64_t n = run_.ranks.sum(std::uint64_t{places.size()});
     PieceStream stream(run_.ranks, places, n, [](const FirstPlace& place) { return place.id; });

@@ -22,7 +22,7 @@ public:
 
     /// Call it before the first step, or at a restart. **Collective.**
     void follow();
-    /// The discs at positions that have not been brought back into the box since the last sync.
+    /// Own discs, at positions beyond the periodic sides they have crossed since the last sync.
     std::span<const DiscState> flown(std::span<const DiscState> shown);
     /// Starts all displacements at the present positions. **Collective.**
     void begin(std::span<const DiscState> flown);
@@ -44,7 +44,7 @@ private:
     std::vector<std::array<double, 2>>
         first_places_; ///< first places of the consecutive ids that this rank follows
     std::vector<std::array<double, 2>> first_velocities_;
-    /// Counts of box lengths in a periodic box, since the beginning
+    /// In a periodic box: the box lengths that discs have crossed since the beginning
     std::optional<ImageCounts> lengths_;
     DiscStates flown_;
 };

@@ -3,7 +3,7 @@
 // and along periodic axes relative to the centre of mass. Measurements use
 // these to compare discs with their own states at other times.
 //
-// Discs are kept by runs of ids (pieces.hpp). Price of a sample: each disc is sent once.
+// Discs are kept by ranges of ids (pieces.hpp). Price of a sample: each disc is sent once.
 #pragma once
 
 #include <array>
@@ -34,16 +34,16 @@ public:
 
     /// Follows discs from the present step on. **Collective.**
     void begin();
-    /// The present states of this rank's run of ids. **Collective.**
+    /// The present states of this rank's range of ids. **Collective.**
     const FollowedStates& now();
     DiscId first_id() const { return first_id_; }
     std::uint64_t n_discs() const { return n_discs_; }
 
-    /// Stores or restores box lengths that discs have moved, so that a restart can follow them.
-    /// **Collective.**
+    /// Stores or restores the box lengths that discs have crossed, so that a restart can continue
+    /// to follow the discs. **Collective.**
     void keep(KeptNumbers& kept);
     /// Stores one number for each disc of all ranks, or restores
-    /// the numbers of this rank's run of ids. **Collective.**
+    /// the numbers of this rank's range of ids. **Collective.**
     void keep(KeptNumbers& kept, std::vector<double>& of_discs) const;
 
 private:

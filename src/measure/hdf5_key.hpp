@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The setting that also writes tables to an HDF5 file. Quantities with large tables share it.
+// The setting to write tables also to an HDF5 file. Quantities with large tables share it.
 #pragma once
 
 #include "scene/quantity.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Counts how many box lengths each disc has moved through periodic sides, for displacements and for
-// H5MD's `image`. A sync brings a disc back by whole lengths, which the engine records. Counts are
-// stored by runs of ids (pieces.hpp). Price: 16 bytes a disc, and whenever counts are read each
-// disc that was brought back since then is sent once.
+// H5MD's `image`. A sync moves a disc back into the box by whole lengths, which the engine records.
+// Each rank stores the counts of a range of ids (pieces.hpp). Cost: 16 bytes a disc, and at each
+// reading of counts every disc that was moved back since the last reading is sent once.
 #pragma once
 
 #include <span>
@@ -17,12 +17,12 @@
 
 namespace carrom {
 
-/// This rank's discs, at positions that were not brought back into the box since the last sync.
+/// This rank's discs, at positions beyond the periodic sides they crossed since the last sync.
 DiscStates flown_on(const DiscSystem& system);
 
 class ImageCounts {
 public:
-    /// Counts from 0, from the present step on. Both arguments must outlive this.
+    /// Counts from 0, from the present step on. `system` and `ranks` must outlive this.
     ImageCounts(const Box& box, DiscSystem& system, const Communicator& ranks);
     ~ImageCounts();
     ImageCounts(const ImageCounts&) = delete;
@@ -34,18 +34,18 @@ public:
 
     /// Counts from 0, from the last sync on.
     void begin_anew();
-    /// Adds box lengths by which own discs were brought back outside of syncs.
+    /// Adds the box lengths by which own discs were moved back into the box other than at syncs.
     void add(std::span<const Crossing> crossings) {
         crossings_.insert(crossings_.end(), crossings.begin(), crossings.end());
     }
 
-    /// The counts of this rank's run of ids at the last sync. Call it often, because all crossings
-    /// since the last call are in memory. **Collective.**
+    /// The counts of this rank's range of ids at the last sync. Call it often, because all
+    /// crossings since the last call are in memory. **Collective.**
     std::span<const DiscImage> counts();
     /// Copies the counts into members of `places`, which has the same ids or is empty.
     /// **Collective.**
     void store(std::vector<FirstPlace>& places, double FirstPlace::* x, double FirstPlace::* y);
-    /// The counts of this rank's run of ids at the present step. **Collective.**
+    /// The counts of this rank's range of ids at the present step. **Collective.**
     std::vector<DiscImage> now();
 
 private:

@@ -22,8 +22,8 @@ inline void keep_blocks(KeptNumbers& kept, VectorBlocks& blocks) {
     if (kept.is_restored() && !blocks.set_words(words)) kept.refuse();
 }
 
-/// One standard error of each value; NaN if there are too few samples, or if blocks do not contain
-/// all of them.
+/// One standard error of each value; NaN if there are too few samples, or if the blocks lack some
+/// of the samples.
 inline std::vector<double> errors_of(const VectorBlocks& blocks, std::uint64_t n_samples) {
     std::vector<double> errors(blocks.n_values(), std::numeric_limits<double>::quiet_NaN());
     if (blocks.n_samples() != static_cast<std::int64_t>(n_samples)) return errors;

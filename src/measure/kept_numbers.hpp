@@ -17,7 +17,7 @@ class KeptNumbers {
 public:
     /// Makes an empty list, for storing.
     KeptNumbers() = default;
-    /// Takes stored words, for restoring. They must outlive this.
+    /// Reads stored words, for restoring. They must outlive this.
     explicit KeptNumbers(std::span<const std::int64_t> words)
         : is_restored_(true), stored_(words) {}
 
@@ -47,8 +47,8 @@ public:
             value = static_cast<T>(bits);
         }
     }
-    /// A part that begins with its length; `keep` visits its numbers. The numbers go into the same
-    /// list, because a copy of each part would double the memory.
+    /// Stores or restores a part that begins with its length; `keep` visits its numbers. The
+    /// numbers go into the same list, because a copy of each part would double the memory.
     template <class Keep> void part(const Keep& keep) {
         std::int64_t size = 0;
         const std::size_t begin = words_.size() + 1;
@@ -64,8 +64,8 @@ public:
         keep(its);
         if (!its.is_right() || !its.is_at_end()) refuse();
     }
-    /// Stores a setting on which the sums depend. If it differs when it is restored, the sums are
-    /// useless.
+    /// Stores a setting on which the sums depend. If it differs when it is restored, `is_right`
+    /// becomes false, because the sums are then useless.
     template <class T> void same(const T& value) {
         T found = value;
         (*this)(found);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The interface of a measurement. A quantity is one file in src/measure/quantities: its declaration
-// for scenes and pages (scene/quantity.hpp), and the class that samples it.
+// for scenes and the documentation (scene/quantity.hpp), and the class that samples it.
 //
 // All sums over discs and collisions are counts or in fixed point (exact_sum.hpp). So tables have
 // the same bits on every number of ranks and threads, and after a restart.
-//
-// To add one: copy the file that is most like it, and add its name to the list in
+// To add a quantity: copy the file that is most like it, and add its name to the list in
+// src/measure/CMakeLists.txt.
 // src/measure/CMakeLists.txt.
 #pragma once
 
@@ -68,7 +68,7 @@ struct SampledState {
     bool follows_effects = false;
 };
 
-/// A number for each sample that is shown in the last columns of the table "thermo".
+/// A further column of the table "thermo": a number for each sample.
 struct ThermoColumn {
     std::string name, remark;
     std::function<double(std::size_t)> at_sample;
@@ -82,7 +82,7 @@ public:
     Measurement(const Measurement&) = delete;
     Measurement& operator=(const Measurement&) = delete;
 
-    /// Called before the first sample, at its step, but not at a restart with sums.
+    /// Called before the first sample, at its step, but not at a restart that restores sums.
     virtual void begin() {}
     /// Ends the interval since the last sample. Called before `sample`. If effects change the
     /// energy at syncs, it is also called before they act, so that integrals over time have the
@@ -101,7 +101,7 @@ public:
     virtual void store_discs(StoredSamples& /*stored*/) {}
     virtual void restore_discs(const StoredSamples& /*stored*/) {}
 
-    /// Tables of the samples so far, of which there is at least one. All ranks get the same.
+    /// Tables of the samples so far; there must be at least one sample. All ranks get equal tables.
     virtual std::vector<MeasuredTable> tables() const = 0;
     /// A table that grows by a row at each sample, from row `first` on. Its file grows as the run
     /// goes on, so the bytes of earlier rows never change.
@@ -137,7 +137,7 @@ std::unique_ptr<Measurement> make_measurement(MeasuredRun& run, const Measuremen
 /// All quantities, in the order of the list in CMakeLists.txt.
 const std::vector<MeasuredQuantity>& measured_quantities();
 
-/// Functions for several tables. The first adds arrays over all ranks.
+/// Adds the arrays `mine` of all ranks to `sums`. Several tables use it. **Collective.**
 void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine,
               std::vector<std::uint64_t>& sums);
 /// Counts a position in bins of width 1. Positions beyond the bins are not counted.

@@ -23,7 +23,7 @@ MotionInterval::MotionInterval(DiscSystem& system, const Communicator& ranks,
                                const Pending& pending, const MotionSample& last)
     : system_(&system), ranks_(&ranks), last_sums_(in_unit(system, pending.bound).stress_sums()),
       last_(last) {
-    // Only the root keeps sums, because only the sum over all ranks matters
+    // Only the root keeps the restored sums, because only the sum over all ranks matters
     if (!ranks.is_root()) return;
     StressSums sums(pending.bound);
     std::size_t next = 0;

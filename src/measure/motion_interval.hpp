@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The time integrals of stress and energy since the last sample. The averages of a run and the
-// measured pressures take them from here.
+// measured pressures are computed from them.
 //
 // The integrals of an interval come from exact sums of that interval alone, so their rounding does
 // not grow with the length of the run. Price of a sample: two passes over the discs.

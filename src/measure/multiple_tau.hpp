@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-/// A setting that quantities with such correlations share.
+/// A setting that all quantities with correlations over decades of time share.
 inline constexpr QuantitySetting correlation_points{"correlation_points", 8};
 Key correlation_points_key();
 void check_correlation_points(const SceneDraft& draft);
@@ -32,7 +32,7 @@ public:
     explicit MultipleTau(std::uint64_t points) : points_(points) {}
 
     std::uint64_t points() const { return points_; }
-    /// The number of levels before sample `n` is recorded; samples count from 0.
+    /// The number of levels in use at sample `n`; the first sample has the number 0.
     std::size_t n_levels(std::uint64_t n) const {
         const std::uint64_t half = points_ / 2;
         return n < half ? 1 : static_cast<std::size_t>(std::bit_width(n / half));

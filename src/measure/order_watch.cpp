@@ -62,7 +62,7 @@ void OrderWatch::start() {
     has_begun_ = true;
 }
 
-/// Shifts by multiples of the golden ratio are spread evenly over the period of any drive.
+/// Shifts each sample by a multiple of the golden ratio, to spread samples over any period.
 std::int64_t OrderWatch::step_of_next() const {
     const double next = static_cast<double>(samples_.size() + 1);
     const double shift = next * golden_ratio - std::floor(next * golden_ratio);

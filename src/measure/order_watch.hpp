@@ -31,7 +31,7 @@ struct WatchedNumber {
     std::string name; ///< one of OrderWatch::order_names, or
                       ///< "energy": kinetic, rotational and potential
     SampledMean mean;
-    /// Means over the quarters of the run; NaN if the run is short
+    /// Means over the quarters of the run; NaN if there are fewer than eight samples
     std::array<double, 4> quarters{};
 };
 
@@ -39,7 +39,7 @@ class OrderWatch : public StepAction {
 public:
     static constexpr double least_watched_packing = 0.65;
     static constexpr std::size_t most_samples = 64;
-    /// Names of the modulus of the mean of psi6, and of the mean modulus of discs
+    /// Names of two numbers: the modulus of the mean of psi6, and its mean modulus over discs
     static constexpr std::array<const char*, 2> order_names = {"psi6", "local_psi6"};
 
     /// All arguments must outlive this.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settings that tables of pairs share: the largest distance, for g(r) and g6(r), and the bins, for
-// most tables.
+// Settings that tables of pairs share: the largest distance, for g(r) and g6(r), and the number of
+// bins, for most tables.
 #pragma once
 
 #include "measure/measurement.hpp"
@@ -19,9 +19,9 @@ Key largest_distance_key();
 /// Sets the distance if the scene does not, and checks that it is at most half of the smallest edge
 /// that the region of discs' centres has during the run.
 void check_largest_distance(const SceneDraft& draft);
-/// After a restart walls may move by another distance than planned before. A stored distance that
-/// was not set by the scene stays valid if the box is large enough; otherwise this throws
-/// InputError.
+/// Stores or restores the largest distance. If the scene sets it, it must not change. The default
+/// may change at a restart, because walls may then move further. In this case the stored distance
+/// is used if the box is large enough for it; otherwise this throws InputError.
 void keep_largest_distance(KeptNumbers& kept, const MeasuredRun& run, double& distance);
 
 } // namespace carrom

@@ -35,7 +35,7 @@ void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine,
 namespace {
 
 /// The root mean square of a velocity component of the lightest discs, at the temperature of the
-/// discs or of the hottest thermal wall; 0 if both are 0.
+/// discs or of the hottest thermal wall, whichever is higher; 0 if both are 0.
 double thermal_speed(const SceneParameters& scene, const Totals& totals) {
     double temperature = totals.kinetic_energy / static_cast<double>(totals.n_discs);
     for (const Boundary& side : scene.effects.boundaries)

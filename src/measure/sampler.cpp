@@ -38,8 +38,8 @@ Sampler::~Sampler() {
     if (does_energy_jump(run_.scene.effects)) run_.system.engine().call_before_effects({});
 }
 
-/// Throws if the stored sums have other settings, because they would be useless. Each measurement
-/// also compares its own settings.
+/// Stores the settings on which sums depend, or compares them with stored ones. Different settings
+/// make stored sums useless. Each measurement also compares its own settings.
 void Sampler::keep_settings(KeptNumbers& kept) const {
     kept.same(format);
     kept.same(names_);
@@ -66,7 +66,7 @@ void Sampler::go_on_measuring(const StoredSamples& stored) {
     if (stored.sums.empty() || step <= run_.output.from_step) return;
     KeptNumbers kept(stored.sums);
     keep_settings(kept);
-    StoredSamples asked; // the flags of `asked` select the stored numbers of each disc
+    StoredSamples asked; // its flags show which numbers of each disc the quantities store
     if (kept.is_right()) keep_counts(kept);
     for (const auto& measurement : measurements_) {
         if (!kept.is_right()) break;

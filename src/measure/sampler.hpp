@@ -32,9 +32,9 @@ public:
     ~Sampler() override;
 
     /// Continues from a checkpoint's data; call it before anything is sampled. Sampling begins anew
-    /// if there are no data, or if `from_step` is later. Averages begin anew also if the scene now
-    /// averages over other steps. Throws InputError on every rank if the sums of a quantity have
-    /// other settings. **Collective.**
+    /// if there are no data, or if `from_step` is not before the present step. Averages begin anew
+    /// also if the scene now averages over other steps. Throws InputError on every rank if the sums
+    /// of a quantity have other settings. **Collective.**
     void go_on(const StoredSamples& stored);
 
     /// The first step after `step` at which a sample is due.
@@ -53,7 +53,7 @@ public:
 
     /// **Collective.**
     StoredSamples stored() const;
-    /// Tables of all samples; none before the first one. All ranks get the same.
+    /// Tables of all samples; none before the first sample. All ranks get the same tables.
     std::vector<MeasuredTable> tables() const;
     /// A line for each quantity whose samples contradict an assumption of its tables.
     std::vector<std::string> doubts() const;
@@ -78,7 +78,7 @@ private:
     Measurements measurements_;      ///< the quantities
     std::vector<std::string> names_; ///< names of the quantities, in their order
     bool has_begun_ = false;
-    // The steps at which these actions were last done before effects:
+    // The last steps at which averages, ends of intervals and samples came before effects:
     std::int64_t averaged_before_ = -1, ended_before_ = -1, sampled_before_ = -1;
 };
 

@@ -7,16 +7,16 @@
 
 namespace carrom {
 
-/// An estimate of the speed that discs gain by falling or by being pushed.
+/// An estimate of the speed that discs gain from accelerations (gravity) and moving walls.
 double driven_speed(const SceneParameters& scene);
 
-/// The root mean square of a velocity component; if that is 0, driven_speed; if both are 0, 1.
-/// **Collective.**
+/// The root mean square of a velocity component of the lightest discs, at the higher temperature of
+/// discs and walls; if that is 0, driven_speed; if both are 0, 1. **Collective.**
 double usual_speed(const MeasuredRun& run);
 
-/// The velocity that a fall adds until the middle of the present sync interval, if contacts last;
-/// otherwise 0. Discs at rest hop from sync to sync, so their velocity in the middle is their mean
-/// velocity.
+/// The velocity that a fall adds until the middle of the present sync interval, in scenes with
+/// lasting contacts; otherwise 0. Discs at rest hop from sync to sync, so their velocity in the
+/// middle of the interval is their mean velocity.
 struct VelocityChange {
     double x = 0, y = 0;
 };

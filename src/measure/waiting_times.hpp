@@ -39,23 +39,23 @@ public:
     /// One row for each octave and lag, for one kind.
     MeasuredTable table(std::string name, std::size_t kind, const MultipleTau& scheme,
                         std::int64_t steps_per_sample) const;
-    /// Compares F_s of the earliest origins with F_s of late origins, in octaves that begin after
-    /// the first quarter of the run.
+    /// Compares the scattering function F_s of the earliest origins with that of late origins, in
+    /// octaves that begin after the first quarter of the run.
     struct Comparison {
         double early = 0, late = 0;
         std::uint64_t late_from = 0; ///< first sample of the late origins
         double deviation = 0;        ///< difference divided by its error; 0 if the error is unknown
     };
     /// `length` is the lag in samples. The earliest origins lie within a quarter of a lag, so they
-    /// count as one origin. Late origins within two lags count as one, and its variance is taken to
-    /// be that of a single origin.
+    /// count as one origin. Late origins within two lags also count as one, whose variance is taken
+    /// to be the variance of a single origin.
     Comparison compare(std::size_t lag, std::size_t kind, std::uint64_t length,
                        std::uint64_t n_samples) const;
 
 private:
-    /// The members of MovedDiscs, and the squared scattering function
+    /// Number of stored values: the members of MovedDiscs, and the square of `scattering`
     static constexpr std::size_t n_numbers = 4;
-    /// Sums of these numbers for one kind.
+    /// Sums over origins, for one kind of discs.
     struct Sums {
         double n = 0, scattering = 0, squared_scattering = 0;
     };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Functions that quantities of walls share: sums over collisions with the four sides of the box,
-// tables of them over time, and rules. The sums are exact, so neither the order of collisions nor
-// the rank that carries them out affects them.
+// Functions that the quantities of walls share: sums over collisions with the four sides of the
+// box, tables of these sums over time, and rules for scenes. The sums are exact, so neither the
+// order of collisions nor the rank that carries them out affects them.
 #pragma once
 
 #include <array>
@@ -57,7 +57,7 @@ private:
     std::array<ExactSum, 4> sums_;
 };
 
-/// A quantity of collisions with the sides of the box. Each sample is the impulse or the energy
+/// A quantity of collisions with the sides of the box. Each sample is the momentum or the energy
 /// that discs and each side have exchanged since the last sample.
 class WallMeasurement : public Measurement, public WallFollower {
 public:
@@ -76,7 +76,7 @@ protected:
     virtual MeasuredTable means_of(const MeasuredTable& history) const = 0;
 
     double speed_scale_ = 0;    ///< typical speed, from which units of sums follow
-    std::vector<double> given_; ///< impulse or energy of the four sides in each interval
+    std::vector<double> given_; ///< momentum or energy given at the four sides in each interval
 };
 
 /// The length of a side at a step; between vibrating walls its mean length.
@@ -96,7 +96,7 @@ struct MeanAndError {
 /// Means of all columns of `rows_over_time` except the two steps.
 std::vector<MeanAndError> means_over_time(const std::vector<std::vector<double>>& rows);
 
-/// The rules that the box is not periodic along both axes and has no open side.
+/// Rules for a scene with such a quantity: no open side, and not periodic along both axes.
 template <bool (*is_measured)(const SceneParameters&)>
 std::vector<Rule> rules_of_walls(std::string_view quantity) {
     return {{.one = quantity,

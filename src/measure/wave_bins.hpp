@@ -15,8 +15,8 @@ namespace carrom {
 inline constexpr QuantitySetting largest_wavenumber{"largest_wavenumber"};
 
 Key largest_wavenumber_key();
-/// Checks that there is at least one wave vector, and at
-/// most a million, because each is evaluated for each disc.
+/// Sets the largest wavenumber if the scene does not. Checks that there is at least one wave
+/// vector, and at most a million, because each is evaluated for each disc.
 void check_wavenumber(const SceneDraft& draft);
 /// The rules that the box is periodic along both axes and that its sides are not sheared.
 template <bool (*is_measured)(const SceneParameters&)>

@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-/// A problem without its texts, which follow each other in a string.
+/// The numbers of a problem. Its texts follow each other in a separate string.
 struct PackedProblem {
     std::int64_t line = 0;
     std::uint64_t place_length = 0;

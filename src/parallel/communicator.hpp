@@ -65,7 +65,7 @@ public:
     std::uint64_t sum(std::uint64_t value) const; ///< wraps around
     void sum(std::span<std::uint64_t> values)
         const; ///< element-wise, in place, wraps around; the same length on all ranks
-    /// Adds `value` up over all ranks, in place; its bound is the same on all ranks
+    /// Replaces `value` by its sum over all ranks; its bound must be the same on all ranks
     void sum(ExactSum& value) const;
     std::uint64_t sum_before(
         std::uint64_t value) const; ///< sum over the ranks below this one; 0 on rank 0

@@ -14,7 +14,7 @@ namespace carrom {
 
 /// `Counts` is a struct whose members are all std::uint64_t, so that each number has a name.
 template <class Counts> struct JointReduction {
-    Counts counts{};    ///< may wrap around when added
+    Counts counts{};    ///< sums of counts may wrap around
     double largest = 0; ///< a number that is not NaN; -0 may become +0
 };
 
@@ -24,7 +24,7 @@ struct JointWords {
     double largest = 0;
 };
 
-/// **Collective.**
+/// Replaces the counts by their sums and `largest` by its maximum over all ranks. **Collective.**
 void reduce(JointWords& words, const Communicator& communicator);
 
 /// Replaces the counts by their sums over all ranks, and the largest value by the maximum.

@@ -16,7 +16,7 @@ namespace carrom {
 
 namespace {
 
-/// Time after a departure until it is reported, because messages of the last meeting may be late.
+/// Delay between a departure and its report, because messages of the last meeting may be late.
 constexpr std::chrono::seconds grace(10);
 constexpr std::size_t longest_reason = 2000;
 

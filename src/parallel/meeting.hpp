@@ -13,11 +13,11 @@
 
 namespace carrom {
 
-/// A hash by which ranks detect that they make the same call with different arguments.
+/// A hash that shows whether ranks make the same call with different arguments.
 std::uint64_t hash_of_argument(std::string_view text);
 
 /// Returns when all ranks have reached the same call. Throws InputError on every rank if calls or
-/// arguments differ, or if MPI has ended. If a rank has departed, all are aborted with a message
+/// arguments differ, or if MPI has ended. If a rank has departed, all ranks abort with a message
 /// (code 70) after ten seconds. **Collective.**
 void meet(const Communicator& communicator, std::string_view call, std::uint64_t argument = 0);
 

@@ -61,7 +61,7 @@ void on_failure(std::string_view text, const char* file, int line) {
 /// 2, which in Carrom mean a difference and a wrong input.
 void end_after_library() {
     if (exit_now == Exit::regular) return;
-    // In all other cases MPI has not ended regularly
+    // From here on, MPI has not ended regularly
     if (exit_now == Exit::of_abort) std::_Exit(abort_code_now);
     abort_all("error",
               "MPI's or OpenMP's library has ended the program, perhaps with a message above; "
@@ -194,7 +194,7 @@ std::string mpi_version() {
     int length = 0;
     MPI_Get_library_version(text.data(), &length);
     std::string name(text.data(), static_cast<std::size_t>(length));
-    name.resize(std::min(name.find_first_of(",\n"), name.size())); // details follow
+    name.resize(std::min(name.find_first_of(",\n"), name.size())); // the rest are details
     std::replace(name.begin(), name.end(), '\t', ' ');
     return name;
 }
@@ -218,7 +218,7 @@ void abort_from_signal(std::string_view text, int code) {
     static std::atomic<int> last_code; // atomic, because any thread may run the handler
     last_code = code;
     std::signal(SIGALRM, [](int) { std::_Exit(last_code); });
-    sigset_t alarms; // the caller's handler may run with blocked alarms
+    sigset_t alarms; // a handler of SIGALRM that calls this runs with SIGALRM blocked
     ::sigemptyset(&alarms);
     ::sigaddset(&alarms, SIGALRM);
     ::sigprocmask(SIG_UNBLOCK, &alarms, nullptr);

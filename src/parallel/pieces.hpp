@@ -59,8 +59,8 @@ private:
 /// Gives each rank its pieces, one in each round.
 template <Message T, class IdOf> class PieceStream {
 public:
-    /// `id_of(record)` gives the id; each of 0 .. n-1 must occur once over all ranks (checked as
-    /// pieces come). `records` must stay as they are as long as this is used.
+    /// `id_of(record)` gives the id; each of 0 .. n-1 must occur once over all ranks (tested
+    /// for each piece). `records` must stay unchanged as long as the stream is used.
     PieceStream(const Communicator& communicator, std::span<const T> records, std::uint64_t n,
                 const IdOf& id_of)
         : PieceStream(communicator, records, Pieces(n, communicator.size()), n, id_of) {}
@@ -102,7 +102,7 @@ public:
 
 private:
     static constexpr std::uint64_t rounds_per_exchange = 8;
-    /// Prefetched, because the records are scattered in memory
+    /// Records are prefetched this many places ahead, because they are scattered in memory
     static constexpr std::size_t records_ahead = 64;
 
     void sort_by_piece() {

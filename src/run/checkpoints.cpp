@@ -27,7 +27,7 @@ constexpr double most_copied = 1e6;
 /// disc, and about as long again for the data of measurements.
 constexpr double seconds_between_copies = 0.02, seconds_per_copied_disc = 4e-6;
 /// Seconds for a step after a request to stop. If no copies are made, the step gets twice the time
-/// of the last stretch, up to the limit of batch systems.
+/// of the last stretch, but at most `most_patience`, because batch systems soon end the job.
 constexpr double patience = 1, most_patience = 20;
 constexpr double longest_stretch = 1e15; // longest stretch, in steps
 
@@ -67,8 +67,8 @@ bool Checkpoints::act() {
     return goes_on;
 }
 
-/// Facts on which all ranks agree: whether any rank has a signal, and the time on rank 0's clock.
-/// **Collective.**
+/// Facts that are equal on all ranks: whether any rank has a request to stop, and whether a
+/// checkpoint or a copy is due by rank 0's clock. **Collective.**
 Checkpoints::Updates Checkpoints::updates(std::int64_t step) {
     std::array<std::uint64_t, 5> sums = {is_stop_requested() ? 1u : 0u, 0, 0, 0, 0};
     const double discs_per_rank = static_cast<double>(run_.scene().n_discs) / ranks_.size();
@@ -135,7 +135,7 @@ std::string Checkpoints::keep(std::int64_t step) {
                        run_.scene().packing() * size * size);
 }
 
-/// Repeats the steps from the last stored state to `step`, with the same bits. **Collective.**
+/// Runs again from the last stored state to the end of `step`, and stores it. **Collective.**
 void Checkpoints::go_over_to(std::int64_t step) {
     if (last_written_ < 0) return;
     SceneParameters scene = run_.scene();

@@ -37,7 +37,7 @@ public:
     Checkpoints(const Checkpoints&) = delete;
     Checkpoints& operator=(const Checkpoints&) = delete;
 
-    /// The next step at which a checkpoint or a test for a request to stop is due.
+    /// The next step after `step` at which a checkpoint or a test for a request to stop is due.
     std::int64_t next_due(std::int64_t step) const override;
 
     /// Stores the state if a checkpoint is due, after the other actions have made their work

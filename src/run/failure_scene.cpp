@@ -88,7 +88,7 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
             "\n# Places count from the lower left corner of the box here, which keeps all bits.";
     around.origin = {};
     constexpr double turn = 2 * std::numbers::pi;
-    for (Boundary& side : around.effects.boundaries) side.inlet = {}; // no discs wait outside
+    for (Boundary& side : around.effects.boundaries) side.inlet = {}; // no discs enter
     for (Boundary& side : around.effects.boundaries)
         if (side.amplitude != 0)
             side.phase = turn *

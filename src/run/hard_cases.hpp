@@ -17,8 +17,8 @@ namespace carrom {
 void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
                        const Communicator& ranks, const Messages& messages);
 
-/// Warns of close pairs at the scene's start, where rounding or the order of ids decides: discs
-/// that overlap (in the time-stepped method), touch several others, or slide along each other.
+/// Warns if discs overlap at the start (time-stepped method), or if their collisions depend on ids
+/// or on rounding, because discs touch several others or slide along each other.
 void warn_of_close_pairs(const SceneParameters& scene, const Totals& start,
                          const Messages& messages);
 

@@ -36,7 +36,7 @@ public:
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
-    const SceneParameters& scene() const { return scene_; } ///< includes the pilot's choice
+    const SceneParameters& scene() const { return scene_; } ///< method and micro-steps are chosen
     const Communicator& ranks() const { return ranks_; }
     int n_threads() const { return n_threads_; } ///< threads of this rank
     bool is_restart() const { return is_restart_; }
@@ -47,7 +47,7 @@ public:
     /// The averages and the scene's measurements.
     Sampler& sampler() { return sampler_; }
     const Sampler& sampler() const { return sampler_; }
-    /// Watches order and energy, which may drift although the averages do not show it.
+    /// Watches order and energy, which may drift while the averages seem constant.
     const OrderWatch& watch() const { return watch_; }
     /// Counts of crossed box lengths, if a trajectory has images or the start requires counts; null
     /// otherwise. They continue from a checkpoint that contains counts.

@@ -4,7 +4,7 @@
 // Conditions are checked at step 0, and at the end of each step with a sync. The steps of syncs
 // depend on the scene alone, and sums are exact. So the run ends at the same step on any number of
 // ranks and threads, and also after restarts. The pressure is the mean since the last check; a
-// checkpoint stores the sums of the unfinished interval. Price of a check: at most two passes over
+// checkpoint stores the sums of the unfinished interval. Cost of a check: at most two passes over
 // the discs. Without conditions nothing is done.
 #pragma once
 

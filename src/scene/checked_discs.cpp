@@ -158,8 +158,8 @@ void check_sizes(const SceneDraft& draft) {
     check_width(draft, smallest);
 }
 
-/// Warns of masses so different that sums over discs lose the light ones: sums are whole multiples
-/// of a unit that the heaviest disc sets (core/exact_sum.hpp).
+/// Warns of masses so different that sums over discs lose the contributions of light discs: sums
+/// are whole multiples of a unit that the heaviest disc sets (core/exact_sum.hpp).
 void warn_of_lost_masses(const SceneDraft& draft) {
     constexpr double most = 1e8;
     SceneParameters& scene = draft.scene;
@@ -229,7 +229,7 @@ bool fill_sizes(const SceneDraft& draft) {
     return draft.problems.size() == n_problems;
 }
 
-/// The lattice of a periodic box must fit it, and leave enough room for the discs.
+/// The triangular lattice must fit the periodic box and leave enough room for the discs.
 void check_triangular(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     // walls are reported by rules.cpp
@@ -252,7 +252,7 @@ void check_triangular(const SceneDraft& draft) {
                                nearest / 2));
 }
 
-/// Random insertion stalls at a packing fraction of about 0.54, so denser gases need a lattice.
+/// Checks how discs are placed. A lattice replaces random insertion if the packing exceeds 0.5.
 void check_generator(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     check_regions(draft);

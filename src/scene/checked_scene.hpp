@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Turns settings into SceneParameters, and checks values and their combinations. Every error
-// becomes a problem with its line. The scene is usable only if there are none.
+// becomes a problem with its line. The scene is usable only if there are no problems.
 #pragma once
 
 #include "scene/disc_columns.hpp"
@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// Fills in all but the name and the text. Without a valid `discs.count` the number of discs is 0.
-/// If box and radius are not valid together, the radius is 0, and so is the box unless a file has
+/// Fills in the members that settings give. An unknown number of discs is stored as 0. If box and
+/// radius are not valid together, both become 0; only the box stays if a file has the radii.
 /// the radii. `columns` are the columns of `discs.columns`, if they have been read.
 void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
                 const DiscColumns* columns);

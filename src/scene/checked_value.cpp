@@ -102,7 +102,7 @@ private:
         if (!list) return refuse_type();
         check_pair(*list);
     }
-    /// Checks an edge length, or an array of two.
+    /// Checks an edge length, or an array of two edge lengths.
     void check_lengths() {
         const auto* list = std::get_if<Values>(&setting_.value.data);
         if (!list) return check_number();

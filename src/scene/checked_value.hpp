@@ -8,7 +8,7 @@
 
 namespace carrom {
 
-/// Brings the value into the form that the key's `set` takes. If it is invalid, adds problems and
+/// Converts the value to the form that the key's `set` accepts. If it is invalid, adds problems and
 /// marks the setting as wrong. An invalid row becomes `monostate`.
 void check_value(const Key& key, Setting& setting, Problems& problems);
 

@@ -23,7 +23,7 @@ std::string difference_in(const Key& key, const SceneParameters& there,
     const bool is_there = key.has_meaning(there), is_here = key.has_meaning(here);
     const bool is_about_generator = key.need && key.need->is_of_generator;
     if (!key.is_physical || key.is_same(there, here) || (!is_there && !is_here)) return {};
-    // Keys of the generator are left out if the generator itself differs, which is reported
+    // Keys of a generator are left out if the generators differ, because that is reported
     if (is_there != is_here && is_about_generator) return {};
     if (key.has_rows()) return fmt::format("'{}' is another list there", key.name);
     return fmt::format("'{}' is {} there and {} here", key.name, shown(key, there),
@@ -39,7 +39,7 @@ std::vector<std::string> physical_differences(const SceneParameters& there,
         if (std::string text = difference_in(key, there, here); !text.empty())
             differences.push_back(std::move(text));
     for (const SideColumn column : all_side_columns) {
-        // Checkpoints do not store the columns of files
+        // Columns of files are not compared, because checkpoints do not store them
         const DiscColumn of_files = disc_column_of(column);
         if (!has_column(there, of_files) && !has_column(here, of_files) &&
             there.first_numbers[column] != here.first_numbers[column])

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of a scene that give contacts of some species their own numbers.
+// Rows of a scene with coefficients for the contacts of some species only.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace carrom {
 /// The fields restitution, tangential_restitution and friction, each of which a row may leave out.
 std::vector<Field> contact_fields();
 
-/// The number of rows of `discs.species`; nothing if the scene has none that can be read.
+/// The number of rows of `discs.species`; nothing if the scene has no rows that can be read.
 std::optional<std::size_t> count_species_rows(const SceneDraft& draft);
 bool is_species_row(double number, std::size_t n_rows);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lines of a list of discs that contain data.
+// Reads the lines with data of a list of discs.
 //
 // A file of discs (`discs.file`) may come from another program. So `#` begins a comment there,
 // commas or blanks separate numbers, and the first line may name the columns. Lines after a legacy
@@ -38,10 +38,10 @@ private:
     std::vector<std::string_view> words_;
 };
 
-/// `line` without a comment, in a file of discs.
+/// A line of a file of discs without its comment.
 std::string_view without_comment(std::string_view line);
-/// Replaces the commas in `text`, so that it can be split at blanks. An empty field is joined to
-/// the next field, so that the two together are an invalid number.
+/// Replaces the commas in `text`, so that it can be split at blanks. The comma after an empty field
+/// becomes "?", which is an invalid number.
 void replace_commas(std::string& text);
 
 /// Whether the words are column names: there are several words, and none of them is a number.

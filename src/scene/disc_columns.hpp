@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The columns of a file of discs beyond ids, positions and velocities, which `discs.columns` names.
+// The columns that `discs.columns` names besides ids, positions and velocities.
 //
-// The checks of a scene need radii and masses. All ranks need those of all discs, because the
+// The checks of a scene need radii and masses. All ranks need the columns of all discs, because the
 // dynamics uses them. So rank 0 reads the file twice: first these columns, then the discs.
 // Successive equal discs form one species. In the worst case each disc is a species of its own.
 #pragma once
@@ -21,7 +21,7 @@ struct DiscColumns {
     bool is_whole = true;
 };
 
-/// Reads all lines of `stream`, from its first one. Takes 32 bytes a disc while it reads.
+/// Reads all lines of `stream` from the first one. Needs 48 bytes of memory a disc while it reads.
 DiscColumns read_disc_columns(std::istream& stream, const SceneParameters& scene);
 
 bool has_column(const SceneParameters& scene, DiscColumn column);
@@ -29,11 +29,11 @@ bool has_column(const SceneParameters& scene, DiscColumn column);
 bool has_columns_beside(const SceneParameters& scene);
 /// Whether the lines of the scene's file contain velocities.
 bool lines_have_velocities(const SceneParameters& scene);
-/// The member for the number of a column beyond ids, positions and velocities.
+/// The member of `body` or `beside` for a column other than ids, positions and velocities.
 double& number_of(DiscColumn column, SizeAndMass& body, BySideColumn<double>& beside);
 /// The column's name in scenes.
 const char* name_of(DiscColumn column);
-/// These functions append a disc to a list. They add an entry only if the disc differs from the
+/// These functions append discs to a list. They add an entry only if the discs differ from the
 /// discs of the last entry.
 void add_species(std::vector<Species>& species, const Species& next);
 void add_numbers(std::vector<NumberRun>& runs, std::uint64_t count, double number);

@@ -79,7 +79,7 @@ private:
         found_.problems.push_back({place_, line, std::move(text)});
     }
 
-    /// Takes a line before the data, or the first line of data. Returns true for a line of data.
+    /// Handles a line before the data, or the first line of data. Returns true for a line of data.
     bool take(std::string_view line) {
         if (lines_.line_number() == 1) {
             if (line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
@@ -109,7 +109,7 @@ private:
         return false;
     }
 
-    /// Takes the columns of a comment, if it consists of their names and contains no other words.
+    /// Uses a comment as names of columns, if it consists of such names and has no other words.
     void take_comment(const std::vector<std::string_view>& words) {
         std::string unknown;
         const Columns columns = columns_named(words, unknown);

@@ -17,9 +17,9 @@
 namespace carrom {
 
 struct SurveyOfDiscs {
-    /// Settings `key=value` that the scene itself does not give
+    /// Settings `key=value` that follow from the file and that the scene does not give
     std::vector<std::string> settings;
-    /// errors, such as another file format, or other columns than the scene's
+    /// errors, such as another file format, or columns that differ from those of the scene
     std::vector<Problem> problems;
 };
 

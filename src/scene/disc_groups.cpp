@@ -13,7 +13,7 @@ namespace carrom {
 
 namespace {
 
-/// The number is limited, because the speeds of each group need sums over all ranks
+/// The number of groups is limited, because the speeds of each group need sums over all ranks
 constexpr std::size_t most_groups = 1000;
 
 /// The indices of the numbers in a row.
@@ -62,7 +62,7 @@ Numbers row_of(const DiscGroup& group) {
     return row;
 }
 
-/// Sets the rows that have a count. The other counts are computed later, and all rows set again.
+/// Stores rows that have a count. The others are computed later; then all rows are stored again.
 void set_groups(SceneParameters& scene, const Value& value) {
     scene.groups.clear();
     for (const Value& row : std::get<Values>(value.data))

@@ -23,7 +23,7 @@ void check_groups(const SceneDraft& draft);
 /// The group of a row of `discs.groups`.
 DiscGroup group_of(const Numbers& row);
 
-/// The rectangle of a group; the whole box if it has none.
+/// The rectangle of a group, or the whole box if the group has no region.
 StartRegion region_of(const SceneParameters& scene, const DiscGroup& group);
 
 } // namespace carrom

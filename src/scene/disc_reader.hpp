@@ -3,10 +3,10 @@
 // into its memory.
 //
 // A line is "id x y vx vy", or has other columns (`discs.columns`), in any order of ids. Columns
-// beyond positions and velocities are only checked here; read_disc_columns reads them. Takes up to
-// N bits to test that every id occurs once, and less than a microsecond a line. Threads parse the
+// beyond positions and velocities are only checked here; read_disc_columns reads them. Up to N bits
+// of memory test that every id occurs once. A line takes less than a microsecond. Threads parse the
 // lines together, and then ids are recorded in the order of lines. Without a column of ids, discs
-// are numbered in the order of lines. Places in lines have the users' origin (scene/places.hpp),
+// are numbered in the order of lines. Positions in lines have the users' origin (scene/places.hpp),
 // except in the lines of `discs.from`, which count from the corner of the box.
 //
 // Problems are collected, not thrown, so that one pass over a file finds them all.
@@ -35,7 +35,7 @@ public:
         1'000'000; ///< reading ends after this many problems, because the file is no list of
                    ///< discs
 
-    /// A function that calls work(first, last) for ranges that together are 0 .. n - 1, on any
+    /// A function that calls work(first, last) for ranges that together cover 0 .. n - 1, on any
     /// threads.
     using InParts =
         std::function<void(std::size_t n, const std::function<void(std::size_t, std::size_t)>&)>;
@@ -59,7 +59,7 @@ public:
     /// All errors of the lines, and missing ids. Call it after `read` has returned false. Not for
     /// parts, whose line numbers are unknown.
     std::vector<Problem> problems() const;
-    /// Whether no wrong line has been found in a part so far.
+    /// Whether a part has had no wrong line and no read error so far.
     bool is_flawless() const {
         return n_problems_ == 0 && !lines_.reader().is_endless() && !lines_.reader().has_failed();
     }
@@ -70,7 +70,7 @@ private:
         std::size_t begin = 0, end = 0; ///< range of the line in `text_`
         std::int64_t number = 0;
         bool is_cut = false;
-        /// The line has a valid id; other errors are searched only then
+        /// Whether the line has a valid id; only then other errors are searched
         bool has_number = false;
         InputDisc disc;
         std::string fault;

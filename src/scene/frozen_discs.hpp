@@ -2,8 +2,8 @@
 // Discs of the initial state that became fixed bodies: `discs.freeze`, and `freeze = true` in a
 // group.
 //
-// They are known when the discs have positions. From then on the scene has them as fixed bodies,
-// and only the other ones as discs. The setting `discs.frozen` lists the fixed ones. Checkpoints
+// Which discs these are is known once the discs have positions. From then on they are fixed bodies
+// of the scene and no longer discs. The setting `discs.frozen` lists them. Checkpoints
 // store settings, so a restart need not make the initial state again.
 #pragma once
 
@@ -22,8 +22,8 @@ std::vector<Key> keys_of_freezing();
 std::string problem_of_frozen(const SceneParameters& scene, const std::vector<FrozenDisc>& frozen);
 
 /// Makes the discs fixed bodies, and adds the setting that lists them. The scene must freeze discs
-/// but not contain the frozen ones yet. `has_others_alone`: the scene's species are already without
-/// them, because they come from a state that has only the moving discs.
+/// but not contain the frozen ones yet. `has_others_alone`: the scene's species already lack the
+/// frozen discs, because the species come from a state that has only the moving discs.
 void set_frozen(SceneParameters& scene, std::vector<FrozenDisc> frozen,
                 bool has_others_alone = false);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one declaration of each scene key. The reader of scenes and its checks, `--set`, the
-// comparison at a restart, the writer of scenes and the reference page all use this table.
+// The only declarations of scene keys. The reader of scenes and its checks, `--set`, the
+// comparison at a restart, the writer of scenes and the reference page all use them.
 //
 // To add a key: add a member to SceneParameters, and declare the key in the file of its effect or
 // side, or in a keys_of_*.cpp. If it cannot be combined with another key, add a rule there, or a
@@ -85,7 +85,7 @@ struct Key {
     bool is_seed = false;                          ///< replicas get different values
     bool is_physical = true;                       ///< a restart cannot change it
     std::vector<std::string_view> instead_of = {}; ///< keys that cannot be given together with it
-    /// Keys that can be given instead, if it is required
+    /// Keys one of which may be given instead, if this key is required
     std::vector<std::string_view> or_from = {};
     std::string_view old_name = "";
     /// Names in other programs, and the advice for each.
@@ -93,9 +93,9 @@ struct Key {
     std::vector<Field> fields = {};
     /// For Kind::rows: a single row may be written without the outer brackets
     bool is_one_row = false;
-    std::optional<Axis> axis = {}; ///< the axis along which a place lies
+    std::optional<Axis> axis = {}; ///< the axis, if the number is a coordinate
 
-    // The following members are filled in from the member of SceneParameters.
+    // The following members are filled in from the member of SceneParameters for this key.
     Kind kind = Kind::number;
     std::vector<std::string_view> words = {};
     /// Old words of the key, each with the word that replaces it
@@ -103,7 +103,7 @@ struct Key {
     /// Returns the value, or nothing if it need not be written.
     std::function<Value(const SceneParameters&)> get = {};
     std::function<void(SceneParameters&, const Value&)> set = {};
-    /// Whether the key is equal in two scenes; set if `get` does not return all of its value.
+    /// Whether two scenes have the same value of the key; set if `get` does not return all of it.
     std::function<bool(const SceneParameters&, const SceneParameters&)> compare = {};
 
     using Names = std::vector<std::string_view>;
@@ -151,7 +151,7 @@ struct Rule {
     std::string_view one, other, why;
     /// The problem is reported at the first of these keys that the scene has
     std::vector<std::string_view> keys;
-    std::optional<BoundaryKind> boundary = {}; ///< if set: or at the first side of this kind
+    std::optional<BoundaryKind> boundary = {}; ///< if set: or else at a side of this kind
     bool (*is_broken)(const SceneParameters&);
 };
 

@@ -19,7 +19,7 @@ template <class Enum> struct Word {
 /// Clang 14 does not deduce this template argument by itself.
 template <class Enum> Word(std::string_view, Enum) -> Word<Enum>;
 
-/// The words of an enumeration in scenes.
+/// The words that stand for the values of an enumeration in scenes.
 template <class Enum> inline constexpr std::array<Word<Enum>, 0> words_of{};
 template <>
 inline constexpr std::array words_of<Method>{
@@ -188,7 +188,7 @@ inline Key named_key(std::string name, std::string_view unit, std::string_view h
     return named;
 }
 
-/// The complete key: `member` returns a reference to the key's member of a scene, const or not.
+/// A complete key. `member` returns a reference to the key's member of a scene, which may be const.
 template <class Get>
 Key key(std::string name, std::string_view unit, std::string_view help, const Get& member) {
     Key declared = named_key(std::move(name), unit, help);
@@ -205,7 +205,7 @@ Key key(std::string name, std::string_view unit, std::string_view help, const Ge
     return declared;
 }
 
-/// The key of a number that only its effect uses (OwnNumbers).
+/// A key for a number that only its effect uses; OwnNumbers stores the number.
 inline Key own_key(const std::string& name, std::string_view unit, std::string_view help) {
     Key declared = named_key(name, unit, help);
     declared.kind = Kind::number;

@@ -149,7 +149,7 @@ Key packing_key() {
     return key;
 }
 
-/// The key of N, which is 0 until the file of `discs.file` or `discs.from` is read.
+/// The key of N, the number of discs. N is 0 until `discs.file` or `discs.from` is read.
 Key count_key() {
     Key count = key("discs.count", "discs",
                     "N, the number of discs; a list, a file, species or groups give it too.",

@@ -95,7 +95,7 @@ struct Room {
 };
 
 /// Bounds of centres. They allow for rounding of L - r here and in the program that wrote the
-/// input, an ulp of L, at most 2^-52 L. Discs leave an open side a radius beyond it.
+/// input, an ulp of L, at most 2^-52 L. Discs depart when they are a radius beyond an open side.
 Room room_along(Axis axis, const SceneParameters& scene, double radius) {
     const bool is_x = axis == Axis::x;
     const Extent walls = extent_at(scene.effects, scene.box, 0); // at time 0: sides may swing

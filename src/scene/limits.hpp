@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The range of numbers in a scene. Sizes and speeds stay within 2^+-250, so that no product of the
-// method can overflow or vanish (docs/understanding/method.md, section 4.4). Lengths are above
+// method can overflow or underflow (docs/understanding/method.md, section 4.4). Lengths are above
 // 2^-230, because otherwise discriminants of near grazes would be denormal.
 #pragma once
 
@@ -22,7 +22,7 @@ inline constexpr std::int64_t largest_steps = std::int64_t{1} << 53;
 inline constexpr double largest_packing = 0.9069;
 /// Random insertion slows down above this packing, and jams at about 0.54
 inline constexpr double largest_random_packing = 0.5;
-/// Most micro-steps between syncs in single precision: a float then resolves 1/2048 of one
+/// Most micro-steps between syncs in single precision: a float then resolves 1/2048 micro-step
 inline constexpr std::int64_t longest_single_sync = 4096;
 inline constexpr double smallest_single_size = 0x1p-40,
                         largest_single_size = 0x1p+40; ///< third powers of such sizes are floats
@@ -33,8 +33,8 @@ inline constexpr double longest_drag = 4; ///< limit of drag's rate times the ti
 /// Limit of crossings of the box in a micro-step; beyond it all collisions have equal times
 inline constexpr double most_crossings = 0x1p40;
 
-/// The largest sum of the radii of a fixed body and a disc, relative to a periodic box, so that a
-/// disc touches only the nearest images of a body.
+/// The largest sum of the radii of a fixed body and a disc, in units of the period, so that a disc
+/// touches only the nearest images of a body.
 inline constexpr double largest_in_period = 0.99;
 
 bool has_boundary(const Effects& effects, BoundaryKind kind);
@@ -55,9 +55,9 @@ std::string units_warning(double fastest, double later, const SceneParameters& s
 /// The problem with a disc's radius, mass or number in another column; empty if it is valid.
 std::string column_problem(DiscColumn column, double number);
 
-/// All problems with a disc in an input; empty if there are none: a centre outside [r, L-r] by more
-/// than the rounding of L, with r its `radius`, or a velocity out of range. If the scene has no
-/// valid box, any centre is accepted.
+/// All problems with a disc in an input; empty if there are none. Velocities have a limited range.
+/// Centres lie, within rounding, in [r, L-r] between walls, [-r, L+r] between open sides, [0, L]
+/// between periodic ones, with r the `radius`. Without a valid box any finite centre is accepted.
 std::string disc_problem(const InputDisc& disc, const SceneParameters& scene, double radius);
 
 } // namespace carrom

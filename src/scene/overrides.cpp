@@ -173,8 +173,8 @@ void add_overrides(Settings& settings, Problems& problems,
         const Key* key = find_key(name);
         if (equals == std::string::npos || name.empty()) {
             add_problem(problems, place, form_problem(text));
-        } else if (text.find('\n') != std::string::npos) { // a scene's copy stores it on one
-                                                           // line
+        } else if (text.find('\n') != std::string::npos) { // checkpoints store overrides as
+                                                           // lines
             add_problem(problems, place,
                         fmt::format("must stand on one line, not {}", in_quotes(word)));
         } else if (word.starts_with('{') && find_table(name)) {

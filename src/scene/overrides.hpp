@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settings from the command line, `key=value`. They replace equal keys of the input, and keys that
-// they exclude: `discs.packing` replaces a radius, and another generator replaces the keys that
-// have no meaning for it.
+// Overrides: settings `key=value` from the command line, Python or a checkpoint. They replace equal
+// keys of the input, and keys that they exclude: `discs.packing` replaces a radius, and another
+// generator replaces the keys that have no meaning for it.
 #pragma once
 
 #include <string>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places in users' coordinates, which begin at `box.origin`, and in computed coordinates, which
+// Places (positions) in users' coordinates, which begin at `box.origin`, and internal ones, which
 // begin at the lower left corner of the box. Scenes, texts, messages and tables use the former.
 // States and the raw data of files use the latter, so that no bit of a run depends on the
 // origin.
 //
 // A key declares which of its numbers are places: by `place_along`, or by the names in the form of
-// its rows. A number is converted where the value of its key is taken, and nowhere else.
+// its rows. Values of keys are converted just before the scene stores them, and back for output.
 //
 // The conversion is a sum, which rounds by at most half a unit in the last place of the larger
 // coordinate. A conversion to the users' coordinates and back rounds only once: ((u + v) - v) + v =
@@ -25,10 +25,10 @@ namespace carrom {
 std::optional<Axis> axis_of(const Key& key, std::size_t number);
 bool has_places(const Key& key);
 
-/// Adds dx or dy to all places of a checked value.
+/// Adds dx or dy to all coordinates in the value of `key`, whose form must have been checked.
 void move_places(const Key& key, Value& value, double dx, double dy);
 
-/// Sets the origin of a scene whose box is known; the box is 0 if its value is wrong.
+/// Sets an origin that is the centre of the box. The box is 0 if its value is wrong.
 void find_origin(SceneParameters& scene);
 
 /// The shortest decimal from which the coordinate `place` can be read back exactly.

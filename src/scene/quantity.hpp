@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The declaration of a quantity of [output.measurements]: its keys, rules of conflict, checks, and
 // text for the pages. The code that measures it is in a higher module, src/measure, and so is its
-// declaration. A program that measures passes the declarations down when it starts. The reader, the
+// declaration. A program that measures stores the declarations here when it starts. The reader, the
 // pages and the checks loop over the list, so they contain the name of no quantity.
 #pragma once
 
@@ -19,7 +19,7 @@ struct Quantity {
     std::string_view help;           ///< the quantity's text on the page of keys
     std::vector<Key> keys = {};      ///< settings of the quantity; several quantities can share one
     bool has_history = false;        ///< whether its tables grow with each sample
-    bool follows_collisions = false; ///< whether it needs each collision; GPUs do not list any
+    bool follows_collisions = false; ///< whether it needs each collision; GPUs do not record them
     std::vector<Rule> rules = {};    ///< features with which it cannot be combined
     void (*check)(const SceneDraft&) = {}; ///< called if box and discs are valid; a check that
                                            ///< quantities share runs once

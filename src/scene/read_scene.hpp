@@ -40,9 +40,9 @@ std::ifstream open_input(const std::string& path);
 /// is one. Called on one rank.
 SceneText read_scene_text(std::istream& stream, const std::string& name);
 
-/// The scene of that text with `overrides`, "key=value" each, on top. The place of a problem in an
-/// override is "--set KEY". A pure function: the same arguments give the same scene or the same
-/// InputError.
+/// The scene of `input`, in which `overrides`, each of the form "key=value", replace settings. A
+/// problem in an override has the place "--set KEY". A pure function: the same arguments give the
+/// same scene or the same InputError.
 SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides = {});
 
 /// Reads a scene, but appends the problems to `problems`, in the order of lines. If there are

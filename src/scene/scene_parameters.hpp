@@ -40,7 +40,7 @@ enum class VelocityKind {
 /// program's `perf` and `print`).
 enum class TextOutput { none, first_and_last, every_step };
 
-/// A disc as inputs give it, with its velocity per step.
+/// A disc of an input, with its velocity per step.
 struct InputDisc {
     DiscId id = 0;
     double x = 0, y = 0, vx = 0, vy = 0;
@@ -48,8 +48,8 @@ struct InputDisc {
     friend bool operator==(const InputDisc&, const InputDisc&) = default;
 };
 
-/// Discs with consecutive ids, up to `end` - 1, that start with the same number. A rate is per
-/// step.
+/// Discs with consecutive ids, up to `end` - 1, that start with the same number in a column.
+/// Rates are per step.
 struct NumberRun {
     DiscId end = 0;
     double number = 0;
@@ -59,14 +59,14 @@ struct NumberRun {
 /// The initial numbers of columns, by ids. A column is empty if all its numbers are 0.
 using FirstNumbers = BySideColumn<std::vector<NumberRun>>;
 
-/// The columns that a line of `discs_file` may have. Columns other than states come last.
+/// The columns that a line of `discs_file` may have. Side columns follow from `first_side` on.
 enum class DiscColumn : std::size_t { id, x, y, vx, vy, radius, mass, first_side };
 
 constexpr DiscColumn disc_column_of(SideColumn column) {
     return static_cast<DiscColumn>(static_cast<std::size_t>(DiscColumn::first_side) +
                                    static_cast<std::size_t>(column));
 }
-/// The inverse of disc_column_of; not for states, radius and mass.
+/// The inverse of disc_column_of; only for side columns.
 constexpr SideColumn side_column_of(DiscColumn column) {
     return static_cast<SideColumn>(static_cast<std::size_t>(column) -
                                    static_cast<std::size_t>(DiscColumn::first_side));
@@ -194,8 +194,8 @@ struct SceneParameters {
     std::string text; ///< text of the input without lines of discs, for checkpoints
     /// Number of lines of legacy text before its list of discs
     std::int64_t lines_before_discs = 0;
-    bool discs_follow = false;          ///< legacy text continues with lines of discs
-    std::vector<std::string> overrides; ///< settings `key=value` on top of the text
+    bool discs_follow = false;          ///< lines of discs follow: legacy text or `discs.from`
+    std::vector<std::string> overrides; ///< settings `key=value` that replace those of the text
 
     Box box;                 ///< lengths of the edges; 0 if they are not known
     Origin origin;           ///< users' (0, 0); computations do not use it
@@ -250,8 +250,8 @@ struct SceneParameters {
         return !freeze.empty() || std::ranges::any_of(groups, &DiscGroup::is_frozen);
     }
     bool awaits_frozen() const { return freezes() && frozen.empty(); }
-    /// The last step that the run certainly reaches, because a condition may end the run before
-    /// `steps`. Sampling must be frequent enough up to this step.
+    /// The last step that the run is certain to reach: 0 if a condition may end the run before
+    /// `steps`. The times between samples are chosen by this step.
     std::int64_t least_last_step() const { return stop.are_any() ? 0 : steps; }
 
     Effects effects; ///< effects with the step as the unit of time
@@ -295,8 +295,8 @@ bool has_first_numbers(const SceneParameters& scene, SideColumn column);
 /// seed of the activity, so that any rank can compute them for any disc.
 double first_number(const SceneParameters& scene, SideColumn column, DiscId id);
 
-/// The columns other than states that the scene's discs have: those that the dynamics needs, and
-/// those for which the scene gives numbers.
+/// The side columns of the scene's discs: those that the dynamics needs, and those with numbers in
+/// the scene.
 SideColumnSet side_columns_of(const SceneParameters& scene);
 
 /// Chooses the fields of frames for a scene that does not list them.

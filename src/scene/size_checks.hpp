@@ -10,7 +10,7 @@ namespace carrom {
 /// unknown.
 void check_rivals_of_sizes(const SceneDraft& draft);
 
-/// Whether radii can follow the distribution: its limits must be in order and not too small.
+/// Whether radii can be computed: keys are valid, one gives the mean, and limits leave some radii.
 bool check_distribution(const SceneDraft& draft);
 
 } // namespace carrom

@@ -4,8 +4,8 @@
 // Radii are not drawn. The distribution is cut into parts of equal probability, and each part is a
 // species with the radius in its middle. So two seeds have the same radii and differ only by
 // positions and velocities. With a thousand parts the distribution differs from the exact one by
-// less than a thousandth. Each disc's radius and mass are found by its id, 2 bytes a disc on every
-// rank (species.hpp).
+// less than a thousandth. Each disc's radius and mass are found by its id, with 2 bytes a disc on
+// every rank (species.hpp).
 //
 // Quantiles are computed from a sum of the density, with + - * / and sqrt only, so they have the
 // same bits on every machine. The error functions of libraries differ between machines, and so
@@ -29,7 +29,7 @@ struct SizeDistribution {
     /// Standard deviation relative to the mean, before limits cut the distribution
     double polydispersity = 0;
     std::optional<double> smallest, largest; ///< limits relative to the mean
-    /// The unit of mass. For `area` the mass of a disc of the mean radius is 1
+    /// How masses follow from radii: by area, with mass 1 at the mean radius, or all equal to 1
     MassKind mass = MassKind::area;
 };
 
@@ -43,7 +43,7 @@ struct SizeLimits {
 };
 SizeLimits size_limits(const SizeDistribution& sizes);
 
-/// The probability of a radius between the limits, which must be positive and in order. Only for
+/// The probability of a radius between the limits, which must be positive and ascending. Only for
 /// checks, because it uses the error function of the C library.
 double share_within_limits(const SizeDistribution& sizes);
 
@@ -52,7 +52,7 @@ double share_within_limits(const SizeDistribution& sizes);
 constexpr double smallest_share = 1e-12;
 
 /// The radii in the middle of `n` parts of equal probability, ascending, in units of the mean. The
-/// limits must be positive, in order, and contain `smallest_share`. Cost: some 1e6 operations.
+/// limits must be positive, ascending, and contain `smallest_share`. Cost: some 1e6 operations.
 std::vector<double> radii_of_parts(const SizeDistribution& sizes, std::size_t n);
 
 /// Species for this number of discs, from the smallest to the largest radius. If `sizes` has no

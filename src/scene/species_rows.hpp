@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// The indices of the numbers in a row. A number that the scene leaves out is NaN. Mass and the
-/// columns other than states have defaults instead.
+/// The indices of the numbers in a row. A number that the scene leaves out is NaN. Mass and side
+/// columns have defaults instead.
 namespace species_row {
 inline constexpr std::size_t count = 0, radius = 1, mass = 2;
 constexpr std::size_t of(SideColumn column) { return 3 + static_cast<std::size_t>(column); }

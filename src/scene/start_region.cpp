@@ -40,7 +40,7 @@ void add_discs(Crowd& crowd, const SceneParameters& scene, DiscId first, DiscId 
     }
 }
 
-/// The discs in each region where discs begin. Species with equal regions share their room.
+/// The discs in each region where discs begin. Species with equal regions are counted together.
 std::vector<std::pair<StartRegion, Crowd>> crowds_of(const SceneParameters& scene) {
     std::vector<RegionRun> runs = scene.regions;
     if (runs.empty()) runs.push_back({scene.n_discs, scene.region});

@@ -18,8 +18,8 @@ bool has_regions(const SceneParameters& scene);
 /// Why no disc of that radius fits into the region; empty if one fits.
 std::string problem_of_region(const SceneParameters& scene, const StartRegion& region,
                               double largest_radius);
-/// Why this number of discs, which cover `area`, cannot be placed in the region at random, or
-/// empty.
+/// Why this number of discs, which cover `area`, cannot be placed in the region at random; empty
+/// if they can.
 std::string problem_of_crowd(const StartRegion& region, std::uint64_t count, double area);
 
 Key region_key();

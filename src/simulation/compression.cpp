@@ -20,8 +20,8 @@ namespace carrom {
 namespace {
 
 constexpr double first_packing = 0.3; ///< packing of the random gas
-/// Relative growth of radii: in the first stretch, the largest one in any stretch, and the largest
-/// one as a share of the relative room that is left.
+/// Relative growth of radii in the first stretch, its upper limit in any stretch, and its upper
+/// limit as a share of the relative room that is left.
 constexpr double first_growth = 0.01, most_growth = 0.05, share_of_room = 0.1;
 /// Discs have jammed if the relative room is below this; the pressure is N kT / A divided by it.
 constexpr double jammed_room = 1e-6;

@@ -23,7 +23,7 @@ HexaticSums sampled_order(DiscSystem& system, std::uint64_t most_discs);
 /// in memory. **Collective.**
 std::vector<BondOrder> bond_orders(DiscSystem& system);
 /// The numbers of computed_fields.hpp for each own disc; 0 for discs without a Voronoi cell, such
-/// as departed ones. The order is that of `bond_orders`; the discs move, too. **Collective.**
+/// as departed ones. Moves and orders the discs like `bond_orders`. **Collective.**
 std::vector<ComputedNumbers> computed_numbers(DiscSystem& system);
 
 } // namespace carrom

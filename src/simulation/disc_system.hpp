@@ -26,8 +26,8 @@ struct StressSums;
 
 class DiscSystem {
 public:
-    /// Takes the scene's `discs` at step 0, with velocities per step, in any
-    /// distribution over the ranks. Velocities become those per micro-step.
+    /// Begins with `discs`, the scene's discs at step 0 with velocities per step, in any
+    /// distribution over the ranks. The velocities are converted to velocities per micro-step.
     /// **Collective.**
     DiscSystem(const SceneParameters& scene, std::vector<InputDisc> discs,
                const Communicator& communicator, const Tuning& tuning);

@@ -10,17 +10,17 @@ namespace carrom {
 
 namespace {
 
-/// Blocks whose difference is below this share of their mean differ only by rounding.
+/// Blocks are equal to within rounding if they differ by at most this share of the largest one.
 constexpr double rounding_share = 1e-10;
 /// Halves of a run are compared if each has at least this many blocks.
 constexpr std::size_t fewest_blocks_of_half = 8;
-/// Deviation of the halves beyond which a run counts as changing. In steady runs with independent
-/// blocks it is exceeded in one run of 2000.
+/// Deviation of the halves, in errors, beyond which a run counts as changing. In steady runs with
+/// independent blocks it is exceeded in one run of 2000.
 constexpr double most_deviations = 4;
-/// A run with fewer independent blocks counts as following a trend.
+/// A run with fewer independent blocks counts as changing, because its blocks follow a trend.
 constexpr double fewest_independent = 3;
 
-/// 95 of 100 values of chi squared are below these, for 1, 2, 3 ... degrees of freedom.
+/// 95 of 100 values of chi squared are below these numbers, for 1, 2, 3 ... degrees of freedom.
 constexpr std::array chi_squared = {3.841,  5.991,  7.815,  9.488,  11.070, 12.592, 14.067, 15.507,
                                     16.919, 18.307, 19.675, 21.026, 22.362, 23.685, 24.996, 26.296};
 
@@ -65,7 +65,7 @@ std::vector<Level> levels_of(std::span<const double> terms) {
 }
 
 /// The shortest blocks for which neighbours, and neighbours of all longer blocks, have no more
-/// correlation than expected by chance (Jonsson's choice).
+/// correlation than expected by chance (Jonsson's test).
 const Level& independent_level(std::span<const Level> levels) {
     double sum = 0;
     std::size_t chosen = levels.size() - 1;

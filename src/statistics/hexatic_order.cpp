@@ -18,21 +18,21 @@ namespace {
 /// more than three cells meet, as in a square lattice.
 constexpr double shortest_side = 1e-9;
 
-/// Share of the reach within which most cells are complete.
+/// Discs within this share of the reach are enough to complete most cells.
 constexpr double usual_part = 0.6;
 
 /// Position and size of another disc, relative to the disc whose cell is computed.
 struct Seen {
     double dx = 0, dy = 0, squared = 0;
     DiscId id = 0;
-    double larger = 0; ///< squared radius of the first disc minus that of this one
+    double larger = 0; ///< squared radius of the cell's own disc minus that of the other disc
 
     friend bool operator<(const Seen& a, const Seen& b) {
         return std::tie(a.squared, a.id, a.dx, a.dy) < std::tie(b.squared, b.id, b.dx, b.dy);
     }
 };
 
-/// Computes cells one by one. Each thread has one finder.
+/// Computes the Voronoi cells of single discs. Each thread has a finder of its own.
 class CellFinder {
 public:
     CellFinder(const LocalView& local_view, const Extent& box, const CellSizes& sizes, double reach)
@@ -42,8 +42,8 @@ public:
         if (view_.periods.y != 0) box_.y_low = -infinity, box_.y_high = infinity;
     }
 
-    /// Returns whether the cell is complete, which means that no disc beyond the reach could cut
-    /// it.
+    /// Computes the order of one disc. Returns whether its cell is complete, which means that no
+    /// disc beyond the reach could cut it.
     bool find(LocalIndex index, BondOrder& order) {
         const DiscState& disc = view_.population.discs[index];
         const double x = x_in_box(disc), y = y_in_box(disc);
@@ -51,7 +51,7 @@ public:
         if (!is_in_box(disc)) return true;
         const double smaller = sizes_.largest_squared_radius() - sizes_.squared_radius_of(disc.id);
         // Most cells are complete within a part of the reach, which has fewer discs to sort. Discs
-        // cut the cell in the order of distance, so such a cell has the same bits.
+        // cut the cell in the order of distance, so both ranges give such a cell the same bits.
         for (const double range : {usual_part * reach_, reach_}) {
             find_neighbours(index, range);
             cell_.begin(std::max(-reach_, box_.x_low - x), std::min(reach_, box_.x_high - x),
@@ -79,7 +79,7 @@ private:
 
     /// A disc at the distance d cuts nothing if (d - c)^2 - c^2 > `smaller`. Here c is the distance
     /// of the farthest corner, and `smaller` the squared radius of the largest disc minus that of
-    /// this one. Returns the square of the smallest such d.
+    /// the cell's own disc. Returns the square of the smallest such d.
     double squared_reach_of_cell(double smaller) const {
         const double squared = cell_.squared_radius();
         if (smaller == 0) return 4 * squared;

@@ -45,13 +45,13 @@ private:
 };
 
 /// Fills in `orders` in the order of the view's discs. Walls of `box` bound cells and are not
-/// neighbours. The view must extend by `reach` around each disc whose order is wanted. Returns
+/// neighbours. The view must extend by `reach` around each disc whose order is computed. Returns
 /// whether `reach` was enough for all own discs; otherwise their orders are invalid.
 bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
                       double reach, int n_threads, std::vector<BondOrder>& orders);
 
-/// Like the function above, for the own discs whose id is a multiple of `ids_apart`, in one list.
-/// Uses one thread, because the discs are few.
+/// Like the function above, but `orders` has only the own discs whose id is a multiple of
+/// `ids_apart`. Uses one thread, because the discs are few.
 bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
                       double reach, std::uint64_t ids_apart, std::vector<BondOrder>& orders);
 

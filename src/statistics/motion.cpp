@@ -114,7 +114,7 @@ void add_integrals(const StressSums& mine, const Communicator& communicator, Mot
 
 void add_flights(const FlightIntegral& flights, const Frame& frame, MotionSample& sample) {
     if (flights.weight == 0) return; // the weight is 0 immediately after a sync
-    // A stored velocity is (v - frame's) / slowing.
+    // A stored velocity is (velocity in the box - velocity of the frame) / slowing.
     const double unit = sample.speed_unit, slowing = frame.slowing;
     const double ax = flights.shift_x * slowing - frame.vx,
                  ay = flights.shift_y * slowing - frame.vy;
@@ -161,9 +161,9 @@ DriftOfInterval drift_of(Drift kind, const AveragedSystem& system, const MotionS
     return {kind, velocity(before), velocity(after)};
 }
 
-/// The mean of a b over an interval. Where nothing stops a drift, it is constant or linear in time.
-/// For a fluctuating drift, the mean square at the two samples equals the mean square over time,
-/// whereas a straight line between the samples would give up to a third less.
+/// The mean of the product a b over an interval. Where nothing stops a drift, it is constant or
+/// linear in time. For a fluctuating drift, the mean square at the two samples equals the mean
+/// square over time, whereas a straight line between the samples would give up to a third less.
 double mean_product(const DriftOfInterval& a, const DriftOfInterval& b) {
     const double at_ends = (a.before * b.before + a.after * b.after) / 2;
     if (a.kind == Drift::is_driven || b.kind == Drift::is_driven) return at_ends;
@@ -180,8 +180,8 @@ double per_freedom(Drift kind, double n_discs, const AveragedSystem& system) {
 } // namespace
 
 /// Two numbers of integrals_between are approximate: the distribution of the kinetic energy over
-/// the axes, and a drift that changes between samples. Both have only the weight 1 / N, and only
-/// along an axis where the drift is not part of the temperature.
+/// the axes, and a drift that changes between samples. Both errors have only the weight 1 / N, and
+/// only along an axis where the drift is not part of the temperature.
 namespace {
 
 /// The difference of a sum of squares along an axis and `taken`; `all` is the sum along both

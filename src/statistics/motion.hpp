@@ -71,7 +71,7 @@ struct AveragedSystem {
     bool keeps_discs = true; ///< no disc can leave; otherwise collisions per disc are NaN
     /// The treatment of the common velocity along each axis
     Drift drift_x = Drift::is_heat, drift_y = Drift::is_heat;
-    bool has_flow = false; ///< the kinetic part is relative to a flow, and measured by samples
+    bool has_flow = false; ///< the kinetic part is relative to a flow, and computed from samples
     /// Whether the kinetic energy is conserved; if not, samples are closer in time
     bool keeps_energy = true;
     std::int64_t last_step = 0; ///< the last step that the run is certain to reach

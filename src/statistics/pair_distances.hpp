@@ -26,9 +26,9 @@ void count_pair_distances(const LocalView& local_view, double bin_width,
                           std::span<const DiscId> species_ends, int n_threads,
                           std::span<std::uint64_t> counts);
 
-/// The share of pairs of independent points in a box of a by b that are at most `distance` apart,
-/// which must not exceed the shorter side. (From the distribution of each component's difference,
-/// as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
+/// The share of "ideal pairs", which are pairs of independent points, in a box of a by b that are
+/// at most `distance` apart; it must not exceed the shorter side. (From the distribution of each
+/// component's difference, as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
 double share_of_ideal_pairs(double a, double b, double distance);
 /// The share of ideal pairs in a box with periodic sides and walls along the side b, for nearest
 /// images, up to half a period.

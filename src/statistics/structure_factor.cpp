@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-constexpr std::size_t discs_at_once = 128; ///< so few that their phases stay in the cache
+constexpr std::size_t discs_at_once = 128; ///< number of discs whose phases fit in the cache
 using Lane = std::array<double, discs_at_once>;
 
 /// The factors exp(2 pi i n place / length) of some discs, n from 0.

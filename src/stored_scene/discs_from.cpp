@@ -56,7 +56,7 @@ std::vector<std::uint64_t> count_species(const std::vector<Species>& species,
     return counts;
 }
 
-/// The row in the file of the disc with the new id `id`.
+/// The row of the file that contains the disc with the new id `id`.
 std::uint64_t row_of(std::uint64_t id, const std::vector<std::uint64_t>& departed) {
     std::uint64_t row = id;
     for (const std::uint64_t left : departed) {
@@ -149,7 +149,7 @@ private:
     ShareOfDiscs share_;
     std::uint64_t first_row_, row_ = 0;     ///< rows of the file
     std::uint64_t next_ = 0, n_before_ = 0; ///< new id of the next disc; bytes of earlier blocks
-    std::ptrdiff_t next_left_ = 0;          ///< index in `share_.departed`
+    std::ptrdiff_t next_left_ = 0;          ///< index of the next one in `share_.departed`
     std::string lines_;
     Rows rows_;
 };

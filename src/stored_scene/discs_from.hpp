@@ -26,8 +26,8 @@ struct FileOfDiscs {
     std::vector<std::uint64_t> n_by_species;
     double radius = 0;   ///< radius of the largest disc in the file
     std::string columns; ///< `discs.columns` for the lines, or empty
-    /// The lines `id x y vx vy`, per step, in the order of ids. The stream can be read again from
-    /// its beginning. It throws if the file can no longer be read.
+    /// Lines `id x y vx vy` with the numbers of `columns`, in the order of ids. Velocities are per
+    /// step. The stream can be read again. It throws if the file can no longer be read.
     std::unique_ptr<std::istream> lines;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scene in a file: in the header of a checkpoint, and in a recording of its run. The text and
-// the settings on top of it are stored, so the file alone is enough to continue the run.
+// its overrides (`key=value`) are stored, so the file alone is enough to continue the run.
 #pragma once
 
 #include <string>
@@ -25,10 +25,10 @@ SceneParameters scene_of(const CheckpointHeader& header,
 void refuse_other_run(const CheckpointHeader& header, const SceneParameters& scene,
                       const std::string& place);
 
-/// The first difference between a recorded run and the scene's run, or nothing.
+/// The first difference between a recorded run and the scene's run; empty if there is none.
 std::string first_difference(const CheckpointHeader& there, const SceneParameters& scene);
 
-/// The description of the discs in files of the scene's run.
+/// The description of box and discs in files of the scene's run.
 RecordedSystem system_of(const SceneParameters& scene);
 /// The contents of a trajectory of the scene's run.
 TrajectoryLayout layout_of(const SceneParameters& scene, const TrajectoryOutput& wanted);

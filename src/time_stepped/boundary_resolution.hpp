@@ -31,8 +31,8 @@ public:
         : communicator_(communicator), with_neighbours_(communicator), next_slice_(communicator) {}
 
     /// One exchange of messages with `neighbours`, which are all ranks that own discs of this
-    /// rank's halo or have its discs in theirs. Moves the candidates of `undecided` that are now
-    /// final to `kept`, and drops the rejected ones. **Collective.**
+    /// rank's halo or have this rank's discs in their halos. Moves candidates of `undecided` that
+    /// are now final to `kept`, and drops the rejected ones. **Collective.**
     void resolve_boundary(const Population& population, std::span<const int> neighbours,
                           Candidates& undecided, Candidates& kept);
 

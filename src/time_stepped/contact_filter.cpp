@@ -135,7 +135,7 @@ HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange
 /// single cell has all discs in it.
 constexpr std::uint32_t discs_in_piece = 256;
 
-/// FilterColumn for discs that fly much further than they are wide.
+/// Does the work of FilterColumn for discs that fly much further than they are wide.
 template <class D>
 HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column,
                                            float touching_squared, std::vector<DiscPair>& pairs) {
@@ -179,7 +179,7 @@ HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column
     return n_pairs;
 }
 
-/// FilterColumn for all other discs.
+/// Does the work of FilterColumn for all other discs.
 template <class D>
 HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int column,
                                             float touching_squared, std::vector<DiscPair>& pairs) {

@@ -5,7 +5,7 @@
 namespace carrom {
 
 namespace {
-/// below this number of updates, starting threads costs more than it saves
+/// with fewer candidates or updates, starting threads costs more than it saves
 constexpr std::size_t least_for_threads = 1000;
 } // namespace
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the candidates of a window: every contact in it, once, sorted by micro-step.
 //
-// A prediction is a function of two stored states. It stays valid until one of them changes, so
+// A prediction is a function of two stored states, and is valid until one of them changes. So
 // after a micro-step only the discs that collided are predicted again. Each thread owns columns of
 // cells and has its own lists; no result depends on the order of the lists. Cost: some 30
-// single-precision tests a disc and window, a double one for each survivor.
+// single-precision tests a disc and window, and one in double precision for each pair left over.
 #pragma once
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 // Collisions with walls, open sides and fixed bodies within a micro-step m of the time-stepped
 // method (docs/understanding/method.md, section 3). Times t are within the micro-step, 0 to 1.
 //
-// A disc takes part in one collision of a micro-step. So a disc that would leave the box, or run
-// into a fixed body, before the micro-step ends stops there and bounces in the next one. Walls are
+// A disc collides at most once in a micro-step. So a disc that would leave the box, or run into a
+// fixed body, after this collision stops there, and bounces in the next micro-step. Walls are
 // at rest in this method; the sides decide what a bounce does (dynamics/boundaries.hpp).
 #pragma once
 

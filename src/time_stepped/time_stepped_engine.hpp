@@ -4,7 +4,7 @@
 //   redistribute  Own discs go to their strips and cells. Halo discs come from the neighbours.
 //   search        Every contact of the window is found, from stored states alone.
 //
-// Then for each micro-step of the window, in step on all ranks:
+// Then for each micro-step of the window, on all ranks at the same time:
 //
 //   resolve       Local rounds decide; a distributed sort decides chains across strips.
 //   apply         Discs that collide get new states. Halos are updated. Another search follows.

@@ -17,7 +17,7 @@ enum class Formulas {
     usual,
     stable,
     all
-}; ///< the stable formula in double precision, both precisions, or the naive formula as well
+}; ///< stable formula in double; the same in both precisions; stable and naive formula in both
 
 struct StudyOptions {
     std::string table = "accuracy.csv";

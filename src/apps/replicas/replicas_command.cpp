@@ -73,7 +73,7 @@ RunOptions options_of(const ReplicasOptions& options, const SceneParameters& sce
     return one;
 }
 
-/// Whether the replica is complete. Throws InputError if its folder has another run.
+/// Whether the replica is complete. Throws InputError if the complete run has another scene.
 bool is_done(const RunOptions& one, const Communicator& rank) {
     if (!one.resume) return false;
     const SceneParameters scene = load_scene_alone(one, {}, rank);
@@ -97,7 +97,7 @@ ExitCode run_mine(const ReplicasOptions& options, const SceneParameters& scene,
     return ExitCode::success;
 }
 
-/// Collects the results of all ranks. Throws the first failure of any rank on all ranks.
+/// Runs all replicas; false if a stop was requested. Every rank throws if a replica failed.
 bool all_are_done(const ReplicasOptions& options, const SceneParameters& scene,
                   const Communicator& ranks) {
     constexpr double patience_seconds = 1e9; // other ranks may still have long runs

@@ -183,7 +183,7 @@ void warn_of_threads(int threads, bool are_chosen, const Communicator& ranks) {
         print_message("warning: {}: running with {} threads a rank\n", unheeded, threads);
 }
 
-/// Warns if this machine computes other bits. **Collective.**
+/// Warns if this machine's arithmetic gives other bits than other machines. **Collective.**
 void warn_of_other_bits(const Communicator& ranks) {
     const std::string difference = warning_of_other_bits(ranks);
     if (ranks.is_root() && !difference.empty()) print_message("warning: {}\n", difference);

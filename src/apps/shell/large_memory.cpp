@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Asks for huge pages for large arrays. Discs are accessed in random order, and with pages of 64
+// Requests huge pages for large arrays. Discs are accessed in random order, and with pages of 64
 // discs most of the time is spent on address translation. With huge pages a gas of 1e6 discs runs
 // 1.3 times as fast on a Xeon. Systems that always use huge pages are not affected.
 //

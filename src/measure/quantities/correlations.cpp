@@ -28,9 +28,9 @@ namespace {
 constexpr QuantitySetting correlation_wavenumber{"correlation_wavenumber"},
     overlap_distance{"overlap_distance"};
 constexpr std::size_t most_species = 8; ///< with more species there are no tables by species
-/// The largest number of waves in a radius; over shorter waves discs always fly freely.
+/// The largest number of waves in a radius; on shorter lengths all motion is free flight.
 constexpr double shortest_waves = 1000;
-/// The number of ids in a run; each run is on one rank
+/// The number of consecutive ids in a run of ids. All ids of such a run are on one rank
 constexpr std::uint64_t ids_of_run = Pieces::least_rows;
 
 enum Moment : std::uint8_t { squares, fourths, products, waves, overlaps, n_moments };
@@ -93,9 +93,9 @@ struct Comparison {
     const FollowedStates &now, &before;
     double turns_per_length, overlap_squared;
 
-    /// Adds `n` discs from index `begin` on, at most a run of ids, to the
-    /// moments `of`, in the order of ids. The terms are computed first,
-    /// because ordered sums and whole numbers prevent vectorisation.
+    /// Adds the moments of `n` discs, at most one run of ids, to `of` in the order of ids. The
+    /// discs begin at index `begin`. All terms are computed before they are added, because loops
+    /// with sums in a fixed order are not vectorised.
     void add_to(double* of, std::size_t begin, std::size_t n) const {
         // Not initialised, which saves a tenth of the time.
         std::array<double, ids_of_run> square, product, wave, is_near;

@@ -57,7 +57,7 @@ void check_window(const SceneDraft& draft) {
                              key, every, 2 * every, window));
 }
 
-/// Successive windows; each has numbers at the times 0, every_steps ... correlation_steps.
+/// Successive windows, each with three numbers at the times 0, every_steps ... correlation_steps.
 class Windows {
 public:
     Windows(const std::vector<double>& numbers, std::size_t n_times, std::int64_t every_steps)
@@ -68,7 +68,7 @@ public:
     double steps(std::size_t time) const {
         return static_cast<double>(static_cast<std::int64_t>(time) * every_steps_);
     }
-    /// One number from each window that has reached `time`.
+    /// The value of `number` at the time with this index, for each window that has reached it.
     template <class Number> std::vector<double> each(std::size_t time, const Number& number) const {
         std::vector<double> values;
         for (std::size_t k = time; 3 * k < numbers_.size(); k += n_times_)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "obstacle_forces": the force and the torque of discs on each obstacle, and the wall of a round
-// box, collision by collision. The push divided by the wall's length is the pressure there.
+// "obstacle_forces": the force and the torque of discs on each obstacle and on the wall of a round
+// box, collision by collision. The column `push` over the wall's length is the pressure there.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    /// The mean per step, in an interval, of the number `part` of a row.
+    /// The mean per step of number `part` of an obstacle (`row`), in an interval.
     double rate_of(std::size_t interval, std::size_t row, std::size_t part) const {
         return given_[(interval * rows_.size() + row) * n_force_parts + part] /
                static_cast<double>(run_.output.every_steps);
@@ -98,7 +98,7 @@ private:
         for (std::size_t row = 0; row < rows_.size(); ++row) {
             std::vector<std::vector<double>> over_time;
             for (std::size_t k = 0; k < n_intervals(); ++k) {
-                over_time.push_back({0, 0}); // steps, which `means_over_time` skips
+                over_time.push_back({0, 0}); // the two steps, which `means_over_time` skips
                 for (std::size_t part = 0; part < n_force_parts; ++part)
                     over_time.back().push_back(rate_of(k, row, part));
             }
@@ -148,7 +148,7 @@ private:
             for (const double bound : bounds) since_last_.emplace_back(bound);
     }
 
-    /// Which numbers of obstacles belong to which rows of the scene's lists.
+    /// Text that relates the numbers of obstacles to the rows of the scene's lists.
     std::string obstacles_text() const {
         std::string text;
         for (std::size_t k = 0; k < rows_.size(); ++k) {

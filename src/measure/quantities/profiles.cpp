@@ -2,9 +2,9 @@
 // "profiles": density, velocity, temperature relative to the local mean, the pressure tensor and
 // the flow of heat, on a grid of cells, averaged over successive blocks of time.
 //
-// Kinetic parts are sampled; the others use every collision: impulse times distance is divided by
-// length among the cells on the line between both centres, so that the force across any grid line
-// is right. Price: a pass over discs and cells a sample, some hundred instructions a collision.
+// Kinetic parts are sampled. The other parts use every collision: impulse times distance is divided
+// among the cells on the line between both centres, by length, so that the force across any grid
+// line is right. Cost: a pass over discs and cells a sample, some hundred instructions a collision.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,7 +51,7 @@ void check_grid(const SceneDraft& draft) {
                         n_blocks, n_cells, profile_samples.key_name()));
 }
 
-/// Suggests changes with which a run of this length, from its first sample on, has a whole block.
+/// Suggests settings with which a run of `steps` steps from its first sample has a whole block.
 std::string remedy_for_short_run(const MeasurementOutput& output, std::int64_t steps) {
     const std::string samples = profile_samples.key_name();
     const auto intervals = static_cast<std::int64_t>(profile_samples.of(output)) - 1;
@@ -63,7 +63,7 @@ std::string remedy_for_short_run(const MeasurementOutput& output, std::int64_t s
     return fmt::format("output.measurements.every_steps = {} or less", steps / intervals);
 }
 
-/// Warns that no block is complete; no error, because a restart may complete one.
+/// Warns that no block is complete. This is no error, because a restart may complete one.
 void warn_without_blocks(const SceneDraft& draft) {
     const MeasurementOutput& output = *draft.scene.measurements;
     const std::int64_t steps = draft.scene.steps - output.from_step;
@@ -76,7 +76,7 @@ void warn_without_blocks(const SceneDraft& draft) {
                     needed, output.from_step, steps, remedy_for_short_run(output, steps)));
 }
 
-/// A block's last sample, the steps of its collisions, and the mean edges of the box.
+/// A block's last step, the number of steps whose collisions count, and the box's mean edges.
 struct BlockHead {
     double to_step = 0, steps = 0, x_low = 0, x_high = 0, y_low = 0, y_high = 0;
 };
@@ -121,7 +121,7 @@ public:
         const double time = run_.system.clock(), unit = run_.system.velocity_unit();
         const double per_x = static_cast<double>(n_x_) / (box.x_high - box.x_low),
                      per_y = static_cast<double>(n_y_) / (box.y_high - box.y_low);
-        const auto place = [](double x, std::size_t n) { // the edges belong to the last cells
+        const auto place = [](double x, std::size_t n) { // edges belong to outer cells
             return static_cast<std::size_t>(std::clamp<std::int64_t>(
                 static_cast<std::int64_t>(x), 0, static_cast<std::int64_t>(n) - 1));
         };
@@ -172,7 +172,7 @@ private:
         return {&head.to_step, &head.steps, &head.x_low, &head.x_high, &head.y_low, &head.y_high};
     }
     std::size_t n_cells() const { return n_x_ * n_y_; }
-    /// Fields of a block: all species together, each species if they are separate, the whole box.
+    /// Fields of a block: all discs in each cell, each species if separate, and the whole box.
     std::size_t n_fields() const { return n_cells() * (n_kinds_ > 1 ? n_kinds_ + 1 : 1) + 1; }
 
     std::size_t kind_of(DiscId id) const {
@@ -222,7 +222,7 @@ private:
                    length = Pair{event.dx, event.dy} * grid.per_length, to = from + length;
         const PairOfCells cell = cell_at(from);
         const std::size_t to_right = static_cast<std::size_t>(cell[0]) - 1,
-                          upwards = static_cast<std::size_t>(cell[1]) - 1; // huge if negative
+                          upwards = static_cast<std::size_t>(cell[1]) - 1; // huge if row < 0
         const ContactTerms terms = terms_of(event);
         if (are_same(cell, cell_at(to)) && to_right < n_x_ && upwards < n_y_ && n_kinds_ == 1)
             [[likely]]
@@ -322,7 +322,7 @@ private:
     std::vector<double> blocks_;  ///< count and moments of each field in finished blocks
 };
 
-/// `n` fields of each block from `first` on. A single field is the whole box, without a position.
+/// `n` fields of each block, from field `first` on. A single field means the whole box.
 MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_t n) const {
     const bool is_grid = n == n_cells() && first + n < n_fields();
     const std::string where = is_grid ? fmt::format("on a grid of {} by {} cells; x, y: their "

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t per_sample = 7; ///< numbers of each sample in `psi6_`
 
-/// Means of the history's columns, except step and parts.
+/// Means of the history's columns, except the step and the real and imaginary part.
 MeasuredTable means_of(const MeasuredTable& history) {
     MeasuredTable table{"psi6",
                         {"means of the history with one standard error (from joined samples; nan "
@@ -84,7 +84,7 @@ public:
 
 private:
     static double g6_of(double pairs, double products) { return pairs > 0 ? products / pairs : 0; }
-    /// |psi6| for all discs together.
+    /// The modulus of the mean of psi6 over all discs.
     double psi6_at(std::size_t sample) const {
         const double* const now = psi6_.data() + per_sample * sample;
         return std::sqrt(now[0] * now[0] + now[1] * now[1]) / now[per_sample - 1];

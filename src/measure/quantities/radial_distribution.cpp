@@ -15,8 +15,8 @@ namespace carrom {
 
 namespace {
 
-/// The species whose pairs are counted separately: the scene's, or a single one if discs are equal
-/// or have more than eight species.
+/// The species whose pairs are counted separately: the scene's species, or a single one if discs
+/// are equal or have more than eight species.
 std::vector<Species> species_apart(const SceneParameters& scene) {
     constexpr std::size_t most = 8;
     const std::vector<Species>& species = scene.effects.species;
@@ -101,7 +101,7 @@ public:
     }
 
 private:
-    /// The shares of independent pairs in each bin; computed again only if the box has changed.
+    /// Shares of pairs of independent points by bin; computed again only if the box has changed.
     const std::vector<double>& ideal_shares(const Extent& box, std::size_t n, double width) {
         const Box size = box.size();
         if (shares_.size() == n && size == box_of_shares_) return shares_;
@@ -112,8 +112,8 @@ private:
                                           static_cast<double>(k + 1) * width));
         return shares_;
     }
-    /// The share of independent pairs with distances from `inner` to `outer`, in the part of the
-    /// box that centres can reach.
+    /// The share of pairs of independent points with distances from `inner` to `outer`, in the part
+    /// of the box that centres can reach.
     double ideal_share(const Box& box, double inner, double outer) const {
         const double a = box.x - 2 * run_.scene.radius, b = box.y - 2 * run_.scene.radius;
         const bool goes_round_x = run_.scene.effects.is_periodic_x(),
@@ -153,7 +153,7 @@ private:
     static std::vector<double> numbers_of(const std::vector<std::uint64_t>& counts) {
         return {counts.begin(), counts.end()};
     }
-    /// Not inlined, because GCC 12 would then warn of a wrong delete.
+    /// Not inlined, because GCC 12 would otherwise warn of a wrong delete.
     [[gnu::noinline]] static std::vector<double> ratios(const std::vector<double>& pairs,
                                                         const std::vector<double>& ideal_pairs) {
         std::vector<double> g(pairs.size(), 0);
@@ -167,7 +167,7 @@ private:
     Box box_of_shares_;
     /// For each kind of pair (pair_distances.hpp) its bins, one kind after the other
     std::vector<std::uint64_t> pairs_;
-    std::vector<double> ideal_pairs_; ///< expected pairs of discs without size
+    std::vector<double> ideal_pairs_; ///< expected pairs, if discs were independent points
     VectorBlocks blocks_;             ///< samples of g, all curves one after the other
 };
 

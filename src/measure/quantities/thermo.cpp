@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "thermo": the usual quantities over time, a row for each sample. Its file grows as
-// the run goes on.
+// "thermo": energy, temperature, pressure and rate of collisions over time, a row for each sample.
+// Its file grows as the run goes on.
 #include <cmath>
 
 #include <fmt/format.h>

@@ -27,7 +27,7 @@ namespace carrom {
 
 namespace {
 
-/// The components of a moment: stress in two directions, its trace, and the heat current.
+/// The components of a moment: two of shear stress, half the trace of stress, the heat current.
 enum Component : std::uint8_t { shear_xy, shear_normal, trace, heat_x, heat_y, n_components };
 
 /// Henderson's approximation of Z = P A / (N kT) for hard discs.
@@ -143,7 +143,7 @@ public:
 private:
     using Moments = std::array<double, n_components>;
     using Level = std::vector<Moments>;
-    /// Squares of shear (both directions), trace and heat (both axes), and the trace itself.
+    /// Squares of shear (mean of two), trace and heat (mean of both axes), and the trace itself.
     static constexpr std::size_t n_values = 4;
 
     /// Kinetic energy for a mass of 1, relative to the centre of mass.

@@ -29,7 +29,7 @@ bool is_special(const std::string& path) {
            !std::filesystem::is_directory(status);
 }
 
-/// Whether other hard links lead to the file: they would change, as text is written in place.
+/// Whether the file has other hard links, which text written in place would change, too.
 bool has_other_names(const std::string& path) {
     std::error_code error;
     return std::filesystem::is_regular_file(path, error) &&

@@ -19,7 +19,7 @@ struct NamedFile {
     std::string path;
 };
 
-/// How an output is written, which decides what it may replace.
+/// How an output is written, and which files it may replace.
 enum class Output {
     text,   ///< written in place, so it may be a pipe or a terminal; replaces texts
     report, ///< written as a whole; replaces reports

@@ -77,8 +77,8 @@ std::string owner_of_spelling(const fs::path& path, const std::string& own_folde
     return {};
 }
 
-/// Whether a text begins like tables of measurements and of accuracy: with the table's name or the
-/// columns.
+/// Whether a text begins like a table of measurements, of replicas or of accuracy: with the table's
+/// name or the columns.
 bool begins_as_table(std::string_view text) {
     const std::string_view line = text.substr(0, text.find('\n'));
     const bool is_measured = line.starts_with("# ") && line.find(": ") != std::string_view::npos;

@@ -102,7 +102,7 @@ std::string find_entry(const std::string& folder, std::error_code& error, const 
     return {};
 }
 
-/// The settings that the first lines of a scene's copy list: those of `--set`, and the paths of
+/// The settings that the first lines of a scene's copy list: settings of `--set`, and paths of
 /// files, because the copy is in another folder.
 std::vector<std::string> overrides_for_copy(const SceneParameters& scene) {
     std::vector<std::string> overrides = scene.overrides;

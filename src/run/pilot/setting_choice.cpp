@@ -28,9 +28,9 @@ constexpr double long_enough_steps = 1e3;
 /// Seconds after which a setting may be dropped before its trial ends, and after which it may count
 /// as slow. The latter is longer, because starting takes time, too.
 constexpr double long_trial = 0.02, timed_enough = 0.2;
-/// Overlaps are not steady if they grow by more than this between stretches
+/// Overlaps are not steady if they grow by more than this factor between stretches
 constexpr double steady = 1.2;
-/// The stretches of a trial, in sixteenths of it
+/// The lengths of a trial's stretches, in sixteenths of the trial
 constexpr std::array<int, 5> stretches = {1, 1, 2, 4, 8};
 constexpr std::int64_t most_micro_steps = 1 << 20;
 
@@ -68,7 +68,7 @@ struct Pilot {
     const Tuning& tuning;
 };
 
-/// Runs a trial's next stretch from the discs in `at`, which become those at the stretch's end.
+/// Runs a trial's next stretch from the discs in `at`, and replaces them by its last discs.
 Trial run_stretch(const Pilot& pilot, const RunSetting& setting, std::size_t stretch,
                   TrialStart& at) {
     TrialLength length;
@@ -111,7 +111,7 @@ Experience try_setting(const Pilot& pilot, const RunSetting& setting,
     Trial before;
     for (std::size_t k = 0; k < stretches.size(); ++k) {
         const Trial trial = run_stretch(pilot, setting, k, at);
-        found.seconds += trial.wall_seconds; // the same number on all ranks, so all decide alike
+        found.seconds += trial.wall_seconds; // equal on all ranks, so all stop together
         found.reference_seconds += exact[k].wall_seconds;
         found.error = error_of(trial, exact[k]);
         found.grows = k > 0 && are_growing(before, trial);

@@ -25,7 +25,7 @@ void choose_setting(SceneParameters& scene, const std::vector<InputDisc>& discs,
                     const Messages& messages, const Communicator& communicator,
                     const Tuning& tuning);
 
-/// Sets the setting in the scene, in place of `time.accuracy`.
+/// Writes the setting into the scene, in place of `time.accuracy`.
 void decide_on(SceneParameters& scene, const RunSetting& setting);
 
 /// The difference between the results of a trial and of the exact run.

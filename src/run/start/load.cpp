@@ -55,7 +55,7 @@ void go_on(const StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     if (start) loaded.start = std::move(*start);
 }
 
-/// Claims the outputs, and reads a checkpoint that was written while nobody had the lock.
+/// Claims the outputs, and reads again if a checkpoint was written before the lock was taken.
 /// **Collective.**
 void claim(StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     const RunOptions& options = plan.options;

@@ -47,7 +47,7 @@ bool has_other_checkpoints(RestartPlan& plan, const Communicator& ranks);
 /// input was named, `scene` becomes the checkpoint's scene with the options' overrides on top.
 /// Returns nothing if the run starts at step 0. Throws on every rank (exit code 2) if a named file
 /// is damaged, if a named folder has no checkpoint, if all checkpoints of a folder are damaged, or
-/// if the scene would be another run. **Collective.**
+/// if a checkpoint does not belong to the scene's run. **Collective.**
 std::optional<RunStart> read_restart(const RestartPlan& plan, const RunOptions& options,
                                      SceneParameters& scene, const Communicator& ranks);
 

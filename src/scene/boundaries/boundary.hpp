@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The declaration of a kind of side of the box, in one place.
+// The declaration of a kind of box side, such as a wall or an open side.
 //
 // Each file of this folder declares one kind: its keys, rules, checks, line in the summary and
 // allowance in the self-check. The reader of scenes, the pages, reports and the self-check loop
-// over `all_boundaries`, so they contain the name of no kind. The physics of a bounce is in
-// dynamics/boundaries.hpp, for both methods.
+// over `all_boundaries`, so their code names no kind. The physics of a bounce is in
+// dynamics/boundaries.hpp, for the time-stepped and the event-driven method.
 //
 // To add a kind: write a file in this folder, add its name to the list in src/scene/CMakeLists.txt,
 // add a value and a word to dynamics/effects.hpp, and add its physics to `Boundaries::rebound`.
@@ -24,8 +24,8 @@ struct BoundaryDeclaration {
     std::string_view help; ///< description of a side of this kind, for the page of keys
     /// Whether discs bounce off the side, so that `restitution` applies to it.
     bool has_restitution = false;
-    // Abilities that other features require of a side. A kind cannot be combined with a feature if
-    // it does not declare the ability.
+    // Properties that other features depend on. A feature that requires a property, such as
+    // `takes_growing_discs`, cannot be combined with a kind that lacks it.
     bool is_at_rest = true;                         ///< its line never moves
     bool lets_discs_rest = false;                   ///< see EffectDeclaration::lets_discs_rest
     bool takes_growing_discs = false;               ///< growing discs may touch it
@@ -40,7 +40,7 @@ struct BoundaryDeclaration {
     /// valid box and valid discs.
     void (*check_times)(const SceneDraft&) = nullptr;
     void (*check_room)(const SceneDraft&) = nullptr;
-    /// The text for the side of that name in the summary's line about effects.
+    /// The text in the summary's line about effects, for a side called `name`.
     std::string (*summary)(const Boundary&, std::string_view name) = nullptr;
     CheckAllowance (*allowance)(const Boundary&) = nullptr;
 };
@@ -54,16 +54,16 @@ std::vector<Key> keys_of_boundaries();
 /// walls.
 std::string summary_of_boundaries(const Effects& effects);
 CheckAllowance allowance_of_boundaries(const Effects& effects);
-/// Whether growing discs can touch every side: see BoundaryDeclaration.
+/// Whether growing discs may touch every side (BoundaryDeclaration::takes_growing_discs).
 bool do_sides_take_growing_discs(const Effects& effects);
 bool are_walls_at_rest(const Effects& effects);
 bool do_sides_let_discs_rest(const Effects& effects);
 
-/// The key of a side, such as "box.left.speed" for side 0 and "speed".
+/// The name of a side's key: side 0 and "speed" give "box.left.speed".
 std::string side_key(std::size_t side, std::string_view name);
-/// The condition of a key that applies to sides with `has_restitution`.
+/// The condition of a key that has a meaning only for sides with `has_restitution`.
 Need side_reflects(std::size_t side);
-/// The condition of a key that applies to one kind of side only.
+/// The condition of a key that has a meaning only for one kind of side.
 Need side_needs(std::size_t side, BoundaryKind kind);
 /// Text such as " of restitution 0.9" for summaries; empty if the wall is elastic.
 std::string loss_text(const Boundary& side);

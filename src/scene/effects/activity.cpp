@@ -9,9 +9,9 @@
 //   tumbles    at random times phi becomes any angle: run and tumble
 // At a sync, a time t after the last one, the direction first changes by the exact law for that
 // time. Then v += (1 - exp(-rate t)) u e. Together with the thermostat this is the exact solution
-// for a constant force. So the only error is that directions are constant between syncs. For a free
-// disc it enlarges the active part of diffusion by the share (D t)^2 / 12, and the other part by
-// (rate t)^2 / 12.
+// for a constant force. The only error is that directions and velocities are constant between
+// syncs. For a free disc it enlarges the active part of diffusion by the share (D t)^2 / 12, and
+// the thermal part by (rate t)^2 / 12.
 //
 // Directions turn neither in collisions nor with the spins of rough discs.
 #include <cmath>

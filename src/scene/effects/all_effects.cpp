@@ -17,8 +17,8 @@ std::string summary_of(const Effects& effects) {
     const auto add_if = [&](const EffectDeclaration& effect) {
         if (effect.summary) add(effect.summary(effects));
     };
-    // The order of the summary: contacts of discs, their bodies, their surroundings, and what else
-    // acts on them.
+    // The order of the summary: contacts of discs, their species, the sides of the box, and then
+    // all other effects.
     const std::span all(all_effects());
     add_if(all.front());
     add(description(effects.species));

@@ -20,7 +20,7 @@
 // value.
 //
 // Only + - * / and sqrt are used. The logarithm of V' / V is computed by a series, and a random
-// number with an exponential distribution decides about a move. Cost: one exchange of the halo and
+// number with an exponential distribution decides if a move is accepted. Cost: a halo exchange and
 // a pass over pairs that are near each other, every `time.sync_every` micro-steps.
 #include <algorithm>
 #include <bit>

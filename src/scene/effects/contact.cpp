@@ -174,7 +174,7 @@ std::string summary_of_contacts(const Effects& effects) {
 }
 
 /// Whether collisions take energy, rotational energy included. Elastic surfaces take none if they
-/// are smooth, or stick without a loss.
+/// are smooth, or if they stick without a loss of energy.
 bool take_energy(const ContactEffect& contact) {
     if (contact.kind == ContactKind::restitution) return true;
     if (contact.kind != ContactKind::rough) return false;

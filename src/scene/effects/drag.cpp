@@ -56,7 +56,7 @@ EffectDeclaration drag() {
         .check_times = check_times_of_drag,
         .summary =
             [](const Effects& e) { return e.drag != 0 ? fmt::format("drag {:g}", e.drag) : ""; },
-        // 1 under a force, because the loss then depends on the flight and may be 0.
+        // The share is 1 under a force, because the lost energy then depends on the flight.
         .energy_left =
             [](const Effects& e, double time) {
                 return e.acceleration().is_on() ? 1 : std::exp(-2 * e.drag * time);

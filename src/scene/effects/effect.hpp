@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The declaration of an effect, in one place.
+// The declaration of an effect, such as gravity or a thermostat.
 //
 // Each file of this folder declares one effect: its tables, keys (and which of them are seeds),
 // rules, checks, line in the summary, allowance in the self-check, energy besides the kinetic one,
@@ -8,8 +8,8 @@
 // discs' states and columns, a checkpoint contains the values that an effect keeps from sync to
 // sync.
 //
-// The folder belongs to the scene because keys and rules are functions of SceneParameters. It is
-// above the dynamics, where the templates of the hot paths are, and below the engines. So an effect
+// The folder belongs to the scene because keys and rules are functions of SceneParameters. It uses
+// the dynamics, where the templates of the hot paths are, and the engines use it. So an effect
 // that acts at syncs has its physics in its file here. An effect that acts in collisions or in
 // flight has its physics in src/dynamics, and only its declaration here.
 //
@@ -38,13 +38,13 @@ struct CheckAllowance {
     bool collisions_take_energy = false;
     bool walls_give_energy = false; ///< walls do work; the amount is only known during the run
     bool acts_at_syncs = false;     ///< velocities change at syncs; the engine sums up the energy
-    /// Whether velocities also change immediately before the flights after a sync
+    /// Whether velocities change again between the state at a sync and the flights after it
     bool acts_before_flights = false;
     /// Whether surfaces do work in collisions: see EffectDeclaration::work_in_collision
     bool surfaces_give_energy = false;
 };
 
-/// A disc in the box. Its unit of time is that of the effects which are passed together with it.
+/// A disc in the box. Its unit of time is the unit of the Effects that are passed together with it.
 struct ShownDisc {
     double x = 0, y = 0, vx = 0, vy = 0, spin = 0;
     SizeAndMass has;
@@ -52,22 +52,22 @@ struct ShownDisc {
     DiscId id = 0;
 };
 
-/// An energy of discs other than their kinetic energy. Totals, reports and the self-check sum it
-/// over all discs in the box.
+/// An energy of discs other than their kinetic energy. Totals and reports sum it over all discs in
+/// the box, and so does the self-check unless `is_of_syncs` is set.
 struct OtherEnergy {
     const char* name;       ///< the energy's name in the report
     const char* words;      ///< text after the value in the summary
     double Totals::* value; ///< where the sum is kept; effects with the same name share it
     double (*of_disc)(const ShownDisc&, const Effects&, const Box&);
-    /// The largest value of an energy of position for a mass of 1, which sets the scale of
-    /// rounding; null for other energies.
+    /// For an energy of position: its largest value for a disc of mass 1, which sets the scale of
+    /// rounding errors. Null for other energies, and where `is_of_syncs` is set.
     double (*largest)(const Effects&, const Box&) = nullptr;
-    /// Whether it turns into kinetic energy only at syncs. The engine sums up the energy that discs
-    /// gain there, so the self-check leaves it out.
+    /// Whether this energy turns into kinetic energy only at syncs. The engine sums up what discs
+    /// gain there, so the self-check leaves this energy out.
     bool is_of_syncs = false;
 };
 
-/// The path of a disc between two inspections of the self-check, continued through periodic sides.
+/// The displacement of a disc between two inspections of the self-check, not wrapped into the box.
 struct Way {
     double x = 0, y = 0;
     SizeAndMass has;
@@ -114,8 +114,8 @@ struct EffectDeclaration {
     CheckAllowance (*allowance)(const Effects&) = nullptr;
     /// The effect's energy; nothing in a scene whose discs do not have this energy.
     std::optional<OtherEnergy> (*energy)(const Effects&) = nullptr;
-    // For the self-check, with the micro-step as the unit of time: the share of the kinetic energy
-    // that is left after a time.
+    // The next three functions serve the self-check and use the micro-step as the unit of time. The
+    // first returns the share of the kinetic energy that is left after `time`.
     double (*energy_left)(const Effects&, double time) = nullptr;
     /// The energy that a disc gains along its path.
     double (*work)(const Effects&, const Way&) = nullptr;
@@ -129,8 +129,8 @@ struct EffectDeclaration {
     std::unique_ptr<SyncEffect> (*at_syncs)(const SceneParameters&) = nullptr;
     /// The numbers at the end of a run, from the values that the effect kept after the last sync.
     std::vector<EndNumber> (*at_end)(std::span<const std::int64_t> kept) = nullptr;
-    /// Whether the effect balances other changes between syncs, so that the kinetic energy jumps at
-    /// each sync.
+    /// Whether the effect compensates at syncs for earlier changes of energy, so that the kinetic
+    /// energy jumps at each sync.
     bool (*makes_energy_jump)(const Effects&) = nullptr;
     /// How the effect exchanges momentum with discs in other ways than through the sides of the
     /// box; null if it does not.
@@ -150,7 +150,7 @@ const std::vector<EffectDeclaration>& all_effects();
 std::string summary_of(const Effects& effects);
 /// The changes that these effects and sides of the box cause, for the self-check.
 CheckAllowance allowance_of(const Effects& effects);
-/// The energies in the order of the effects.
+/// The energies other than kinetic energy, in the order of the effects.
 std::vector<OtherEnergy> other_energies_of(const Effects& effects);
 // Combined over all effects: see EffectDeclaration for each of these functions.
 double energy_left_by(const Effects& effects, double time);
@@ -158,7 +158,7 @@ double work_on_way(const Effects& effects, const Way& way);
 double work_in_collision(const Effects& effects, double impulse, double radii);
 /// The largest typical speed of all effects.
 double usual_speed_of_effects(const SceneParameters& scene);
-/// `kept` is Engine::kept_by_effects.
+/// `kept` is the list that Engine::kept_by_effects returns.
 std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
                                       std::span<const std::int64_t> kept);
 /// Why Z is undefined, from the first effect that has a reason; otherwise empty.

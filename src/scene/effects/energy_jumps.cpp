@@ -34,7 +34,7 @@ double temperature_in_the_end(const SceneParameters& scene) {
     return loss > 0 ? std::pow(t.strength / loss, 2.0 / 3) : 0;
 }
 
-/// Warns if shear or losses change the temperature much between two acts of the thermostat.
+/// Warns of a thermostat that never acts, or acts too rarely to balance shear or lost energy.
 void warn_of_rare_acts(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.effects.thermostat.is_on() || scene.steps == 0) return;

@@ -74,7 +74,7 @@ Need field_kinds(std::string text, FieldKinds kinds) {
             }};
 }
 
-/// Takes the values of rows, or none if a row is wrong, which is reported elsewhere.
+/// Stores the values of the rows, or none if a row is wrong, which is reported elsewhere.
 void take_rows_of_field(FieldValues& values, const Values& rows) {
     values = {};
     for (const Value& row : rows) {

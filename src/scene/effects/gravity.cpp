@@ -133,7 +133,7 @@ std::vector<Rule> rules_of_gravity() {
     };
 }
 
-/// A disc's potential energy above the walls towards which gravity pulls, where they begin.
+/// A disc's potential energy, with heights above the edges of the box towards which gravity pulls.
 double energy_of_height(const ShownDisc& disc, const Effects& effects, const Box& box) {
     const auto height = [](double place, double pull, double length) {
         return pull < 0 ? place : length - place;
@@ -219,7 +219,7 @@ std::string summary_of_gravity(const Effects& effects) {
     return text;
 }
 
-/// Whether a side rubs, so that it has forces along itself which are not known beforehand.
+/// Whether a side has friction, so that its tangential forces are not known beforehand.
 bool do_surfaces_rub(const Effects& effects) {
     for (std::size_t side = 0; side < effects.boundaries.size(); ++side)
         if (does_rub(effects, side)) return true;

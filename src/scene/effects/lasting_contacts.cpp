@@ -2,7 +2,7 @@
 // Contacts that last from sync to sync (dynamics/contact_impulses.hpp).
 //
 // Every rank gathers all discs, in the order of ids, and computes the same impulses. This takes
-// some 500 bytes for each disc of the run on each rank. The solution begins from the impulses of
+// some 500 bytes for each disc of the run on each rank. The iteration begins from the impulses of
 // the last sync, so checkpoints store them, 32 bytes a contact. While a heap is at rest, its states
 // and impulses repeat bit by bit, and a sync costs one comparison.
 #include <algorithm>
@@ -190,7 +190,7 @@ void shorten_sync_for_hops(const SceneDraft& draft) {
         scene.sync_every /= 2;
 }
 
-/// Reports discs at rest that would bounce too high. Returns false if they do.
+/// Reports it if discs at rest would bounce too high between syncs. Returns false if they would.
 bool check_hops(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene);
@@ -209,8 +209,8 @@ bool check_hops(const SceneDraft& draft) {
     return false;
 }
 
-/// Warns of a speed that makes the run slow. Discs bounce if it is too small, and search partners
-/// far away if it is too large.
+/// Checks the speed below which contacts last. If too small, discs bounce; if too large, they
+/// search partners far away, and impacts lose their normal velocity.
 void check_speed(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene), time = steps_between_syncs(scene);

@@ -5,21 +5,21 @@
 // Commun. 10, 1508 (2019)).
 //
 // All radii are numbered in ascending order, and each disc has one number. In a round
-//   1. pairs of numbers are proposed, by random words that depend on seed, sync and round alone.
-//      Each number is in one pair at most. A disc's "room" is the radius that it may have
-//      afterwards: the larger radius of its pair, or its own radius if it is in no pair.
-//   2. A pair is accepted if both discs fit: their distance to every other neighbour is at least
-//      the sum of the two rooms, and their distance to walls and fixed bodies at least their room.
-//   3. The discs of all accepted pairs exchange their numbers at the same time.
-// No overlap can follow, because no radius exceeds its disc's room. Detailed balance holds: the
-// rooms are the same before and after, whichever pairs are accepted, because a pair of numbers has
+//   1. pairs of numbers are proposed by random bits, which depend on seed, sync, round and number.
+//      Each number is in one pair at most. A disc's bound is the largest radius that it can have
+//      after the round: the larger radius of its pair, or its own radius if it is in no pair.
+//   2. A pair is accepted if both discs fit: each disc's distance to other neighbours is at least
+//      the sum of both bounds, and its distance to walls and fixed bodies is at least its bound.
+//   3. The discs of all accepted pairs exchange their numbers, and so their radii, at once.
+// No overlap can follow, because no radius exceeds its disc's bound. Detailed balance holds: the
+// bounds are the same before and after, whichever pairs are accepted, because a pair of numbers has
 // the same two discs. So the same proposals accept the same pairs again, which restores the first
 // state. Each set of proposals is its own inverse, and its probability does not depend on the
 // state. So any two states turn into each other equally often, as in the ensemble of hard discs,
 // where all states have the same weight.
 //
-// Whether a disc fits depends on its neighbours alone. So ranks decide for their own discs and
-// gather those that fit, and the result depends neither on ranks nor on threads. Cost: a halo as
+// Whether a disc fits depends on its neighbours alone. So each rank tests its own discs, and ranks
+// exchange the discs that fit. The result depends neither on ranks nor on threads. Cost: a halo as
 // deep as the largest diameter at each sync, and an exchange between all ranks each round.
 #include <algorithm>
 #include <bit>
@@ -43,18 +43,18 @@ namespace carrom {
 
 namespace {
 
-/// The number of a radius in ascending order.
+/// The number of a radius; radii are numbered in ascending order.
 using SizeNumber = std::uint32_t;
 
-/// The proposals of a round. Partners in the ascending order of radii are at one distance during
-/// the round, which is a random power of two. So pairs of near radii, which exchange easily, and
+/// The proposals of a round. In a round the numbers of all partners differ by one distance, which
+/// is a random power of two. So pairs of near radii, which exchange easily, and
 /// pairs of far radii, which change more, are proposed equally often on each scale.
 struct Proposals {
     std::uint64_t seed, sync, round;
     SizeNumber n_sizes = 0, distance = 1, shift = 0;
 
     /// The probability that a possible pair is proposed. With more pairs, more neighbours would
-    /// have a large room, so that fewer pairs would fit.
+    /// count with the larger radius of their pair, so that fewer pairs would fit.
     static constexpr double share = 0.25;
 
     Proposals(std::uint64_t seed_of_all, std::uint64_t n_syncs, std::uint64_t number, SizeNumber n)
@@ -109,10 +109,10 @@ private:
     std::vector<One> all_;
 };
 
-/// A factor on rooms, so that rounding does not decide about discs that touch.
+/// Required distances are larger by this factor, so that discs that would touch never fit.
 constexpr double with_rounding = 1 + 0x1p-40;
 
-/// Walls and fixed bodies at rest, with the test that a disc has room beside them.
+/// Walls and fixed bodies at rest, with the test that a disc fits beside them.
 class BodiesAtRest {
 public:
     explicit BodiesAtRest(const SceneParameters& scene)

@@ -2,10 +2,10 @@
 // Thermostats: they act on velocities and spins at syncs, every `time.sync_every` micro-steps.
 //
 // After a time t between syncs, with independent normal numbers n of mean 0 and variance 1:
-//   kicks     v += xi sqrt(t) n, less its mean, so that the total momentum is kept. White noise of
-//             strength xi^2 in the limit of short t (van Noije and Ernst, Granular Matter 1, 57
-//             (1998)). All discs have the same xi, whatever their mass. Spins do not change.
-//   andersen  with the probability 1 - exp(-rate t) a disc gets new velocities from Maxwell's
+//   kicks     v += xi sqrt(t) n, less the mean weighted by mass, so that total momentum is kept.
+//             White noise of strength xi^2 in the limit of short t (van Noije and Ernst, Granular
+//             Matter 1, 57 (1998)). xi is the same for all masses. Spins do not change.
+//   andersen  with the probability 1 - exp(-rate t) a disc gets a velocity and spin from Maxwell's
 //             distribution (Andersen, J. Chem. Phys. 72, 2384 (1980)).
 //   langevin  v = c v + sqrt((1 - c^2) kT / m) n with c = exp(-rate t): the exact solution of
 //             dv = -rate v dt + sqrt(2 rate kT / m) dW, the process of Ornstein and Uhlenbeck.
@@ -291,7 +291,7 @@ void check_times_of_thermostat(const SceneDraft& draft) {
                              rate, longest, longest / interval));
 }
 
-/// A bath does not change the mean energy if nothing else gives or takes energy.
+/// A bath (andersen, langevin) does not change the mean energy if nothing else gives or takes any.
 bool makes_energy_jump(const Effects& effects) {
     const CheckAllowance others = allowance_of(effects);
     return effects.thermostat.is_on() &&
