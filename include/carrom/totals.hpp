@@ -35,9 +35,9 @@ struct Totals {
     /// Candidates rejected since this object began to step; used in the time-stepped method only
     std::uint64_t rejected_candidates = 0;
     // Energy lost by restitution since this object began to step, in the event-driven method.
-    // Collisions within the contact time lose none; `guarded_collisions` counts these.
+    // Collisions of discs that have just collided lose none; `guarded_collisions` counts these.
     double energy_taken = 0;
-    std::uint64_t guarded_collisions = 0; ///< collisions within the contact time, except at rest
+    std::uint64_t guarded_collisions = 0; ///< made elastic so, except in contacts at rest
     double energy_spared = 0;             ///< energy that guarded collisions would have lost
     std::uint64_t overlapping_pairs = 0;  ///< pairs that now overlap by more than the tolerance
     /// Depth of the deepest overlap; 2 r if two discs are in one place

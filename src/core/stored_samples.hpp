@@ -16,7 +16,7 @@ struct FirstPlace {
     double x = 0, y = 0;
     /// Box lengths by which periodic sides have shifted the disc since the start
     double lengths_x = 0, lengths_y = 0;
-    double vx = 0, vy = 0; ///< velocity per step at that start
+    double vx = 0, vy = 0; ///< velocity per step, at the start of sampling or of the window
     /// Box lengths by which periodic sides have shifted the disc since the scene's start
     double image_x = 0, image_y = 0;
 };

@@ -23,7 +23,7 @@ using PeriodicDynamics = Dynamics<PeriodicSpace, EqualBodies>;
 using PeriodicMixedDynamics = Dynamics<PeriodicSpace, SpeciesBodies>;
 /// For one or several species, in boxes with or without periodic sides.
 using GrowingDynamics = Dynamics<PeriodicSpace, GrowingBodies>;
-/// For one or several species.
+/// Sheared boxes use this type for a single species, too.
 using ShearedDynamics = Dynamics<ShearedSpace, SpeciesBodies>;
 
 // Calls make(Type) for each type of dynamics.

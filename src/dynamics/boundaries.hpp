@@ -37,8 +37,8 @@ public:
     void begin_interval(std::int64_t n);
     /// Positions of the walls at `time`, in the frame's coordinates.
     Extent extent_at(double time) const;
-    /// Bounds that lie inside the walls throughout [begin, end]. They are narrower than the walls
-    /// at both ends by the deviation of the walls' paths from straight lines; see Dynamics.
+    /// Bounds inside the walls at `begin` and at `end`, with allowances for curved paths, for
+    /// oscillating walls and for discs that a wall has hit; see Dynamics::walls_between.
     Extent walls_between(double begin, double end) const;
     /// The time at which the disc meets a side of this axis, or `never`.
     double wall_time(const DiscState& disc, Axis axis, const Body& body) const {
@@ -172,7 +172,7 @@ private:
     std::array<double, 2> pull_, sways_;
     FallingFrame fall_;
     std::array<Oscillation, 4> oscillations_{};
-    /// The duration of one small bounce of a disc that rests at the wall
+    /// For each side, how long a small bounce of a resting disc takes; 0 if acceleration is steady
     std::array<double, 4> rest_times_{};
     std::array<SurfaceTable, 4> surfaces_{};
 };

@@ -107,7 +107,7 @@ public:
         no_stress_ = *sums;
         no_stress_.clear();
     }
-    /// Sums the energy that collisions take; `bound` exceeds each sum. Call this before any step.
+    /// Starts sums of energy lost in collisions; `bound` exceeds each. Call this before any step.
     void begin_loss_sums(double bound) { losses_ = no_losses_ = LossSums(bound); }
     /// Integrals over flights that the sums do not contain yet.
     virtual FlightIntegral flight_integral() const { return {}; }

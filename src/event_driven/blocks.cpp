@@ -197,7 +197,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::learn_crowding() {
     take_crowding(communicator_.sum(static_cast<std::uint64_t>(crowding_unit * crowding_)));
 }
 
-/// Returns the number of pairs in the cells, each counted twice.
+/// Sets `crowding_`, and returns the number of pairs in the same cell, each counted twice.
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::measure_crowding(const CellBlock& cells) {
     const double n_pairs = pairs_in_cells(discs_.grid(), cells, tuning_.threads);

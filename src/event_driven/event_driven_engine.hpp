@@ -186,7 +186,7 @@ private:
     /// The density in the cell of each own disc relative to the mean of the box, summed over own
     /// discs. In a homogeneous gas each term is below 1, because discs exclude each other.
     double crowding_ = 0;
-    double mean_crowding_ = 1; ///< mean over all discs, or 1 if it is near 1; equal on all ranks
+    double mean_crowding_ = 1; ///< mean over all discs, or 1 if it is at most 2; equal on all ranks
     /// Results of the validation of the last window, and the largest speed at its end.
     JointReduction<FoundInWindow> reduced_;
     /// The crowding is summed in whole units of 1 / `crowding_unit`, so that order has no effect

@@ -92,7 +92,7 @@ private:
     std::optional<SharedState> before_;     ///< the discs at the last graded step
     std::optional<SharedState> own_before_; ///< discs of that step from the student's lines
     std::int64_t written_before_ = 0;
-    double unit_of_float_ = 0; ///< nonzero if the student's numbers are in single precision
+    double unit_of_float_ = 0; ///< error of a step if the student's numbers are floats, else 0
     std::vector<double> digits_before_; ///< StudentLine::last_digit in the step before, by id
     /// The finest last digit of all lines, in this step and in the step before
     double finest_ = 0, finest_before_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HDF5 crashes on some forged metadata, and never ends on some other. So a child process, a fork
-// with limits on time and memory, reads the metadata first. It uses HDF5's plain driver without MPI
-// and OpenMP, and exits without cleaning up. Cost: some milliseconds.
+// HDF5 crashes on some forged metadata, and never ends on other metadata. So a child process, a
+// fork with limits on time and memory, reads the metadata first. It uses HDF5's plain driver
+// without MPI and OpenMP, and exits without cleaning up. Cost: some milliseconds.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The folders of a path that do not exist yet, on one rank. So code that makes these folders, and
-// fails before it writes anything, leaves no empty folders behind.
+// Remembers which folders of a path do not exist yet, and removes those that are empty at the end,
+// so that code that fails before it writes leaves no empty folders. For one rank.
 #pragma once
 
 #include <string>

@@ -61,7 +61,7 @@ void on_failure(std::string_view text, const char* file, int line) {
 /// 2, which in Carrom mean a difference and a wrong input.
 void end_after_library() {
     if (exit_now == Exit::regular) return;
-    // From here on, MPI has not ended regularly
+    // MPI has not been finalised: Carrom aborts, or a library has called `exit`
     if (exit_now == Exit::of_abort) std::_Exit(abort_code_now);
     abort_all("error",
               "MPI's or OpenMP's library has ended the program, perhaps with a message above; "

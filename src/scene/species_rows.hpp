@@ -16,7 +16,7 @@ namespace carrom {
 namespace species_row {
 inline constexpr std::size_t count = 0, radius = 1, mass = 2;
 constexpr std::size_t of(SideColumn column) { return 3 + static_cast<std::size_t>(column); }
-inline constexpr std::size_t region = 3 + n_given_columns; ///< index of the first of four numbers
+inline constexpr std::size_t region = 3 + n_given_columns; ///< index of the first of 4 coordinates
 inline constexpr std::size_t packing = region + 4, share = packing + 1, share_of_area = share + 1;
 } // namespace species_row
 

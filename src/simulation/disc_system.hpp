@@ -102,7 +102,7 @@ public:
 
     /// **Collective.**
     Totals totals() const;
-    /// Only the number of discs, energies and momentum. Takes two passes. **Collective.**
+    /// Fills only the number of discs, energies and momentum. Takes a few passes. **Collective.**
     Totals energies() const;
 
 private:

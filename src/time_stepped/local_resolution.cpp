@@ -35,8 +35,8 @@ void offer(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate>
     if (seen == free_disc || before(live[number], live[seen])) write(mark, number);
 }
 
-/// Repeats `offer` with an atomic exchange when all threads are done, for the few numbers that were
-/// lost.
+/// Repeats `offer` with an atomic exchange, because a few numbers may have been lost. All threads
+/// must have finished `offer` before.
 void insist(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate> live,
             const TotalOrder& before) {
     std::atomic_ref<std::uint32_t> place(mark);

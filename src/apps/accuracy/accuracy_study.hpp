@@ -33,8 +33,8 @@ struct StudyOptions {
 void study_costs(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                  const StudyOptions& options, const Communicator& ranks);
 
-/// Measures distances of discs to the exact run for K = 1, 16 and 256, with samples after about
-/// each collision of a disc. Throws InputError. Called on one rank.
+/// Measures how far discs are from those of the exact run, about once per collision of a disc. K is
+/// 1, 16, 256, ... up to `most_micro_steps`. Throws InputError. Called on one rank.
 void study_distances(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                      const StudyOptions& options, const Communicator& ranks);
 

@@ -23,7 +23,7 @@ struct NamedFile {
 enum class Output {
     text,   ///< written in place, so it may be a pipe or a terminal; replaces texts
     report, ///< written as a whole; replaces reports
-    table,  ///< a new file of CSV
+    table,  ///< a new CSV file
     /// A scene, or a file of discs, whose name this program has
     /// chosen; written as a whole; replaces scenes and discs
     scene,
