@@ -44,6 +44,7 @@ void StudentSteps::read() {
     const auto missing = std::find(is_there_.begin(), is_there_.end(), false);
     if (missing == is_there_.end()) {
         const std::string counters = counters_problem();
+        are_counters_in_place_ = counters.empty();
         if (!counters.empty()) add_problem(counters);
         return;
     }

@@ -44,8 +44,10 @@ public:
     /// Describes what is wrong with the form of the lines, or is empty. The output's last step may
     /// have counters, even if it comes too early.
     const std::string& problem() const { return problem_; }
-    /// Whether every disc has exactly one line, but the lines are not in the order of ids.
-    bool is_only_in_other_order() const { return is_whole_ && !is_in_order_; }
+    /// Whether the order of the lines is all that is wrong with their form.
+    bool is_only_in_other_order() const {
+        return is_whole_ && are_counters_in_place_ && !is_in_order_;
+    }
 
     /// The message that a required `step` is missing, or that steps go back; otherwise empty.
     std::string missing_problem(std::int64_t step) const;
@@ -66,7 +68,7 @@ private:
     std::optional<StudentLine> next_;
     std::vector<StudentLine> lines_;
     std::vector<bool> is_there_; ///< by id: whether the step has a line of the disc
-    bool is_whole_ = false, is_in_order_ = true;
+    bool is_whole_ = false, is_in_order_ = true, are_counters_in_place_ = true;
     std::uint64_t n_counters_ = 0;
     std::string problem_;
 };

@@ -95,6 +95,8 @@ class Grading(ProgramTest):
         self.assertEqual(self.score(text)[0], (95, 100), text)
         self.assertIn("lines     5 of 10: discs are not in the order of ids", text)
         self.assertIn("rule: lines", text)
+        last = [" ".join(line.split()[:6]) for line in mixed[-self.n_discs:]]
+        self.assertIn("lines     0 of 10", self.grade(mixed[:-self.n_discs] + last))
         twice = [*self.right[:3], self.right[0], *self.right[4:]]
         self.assertIn("line 4: step 0 has disc 0 twice", self.grade(twice))
 

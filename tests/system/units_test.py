@@ -12,7 +12,7 @@ import tomllib
 
 from program import PROGRAM, SOURCES, ProgramTest, main
 
-STEPS = 30  # at most, in the scene's own unit of time
+STEPS = 10  # at most, in the scene's own unit of time
 
 
 def units_of_keys():
