@@ -18,6 +18,6 @@ configure -DCARROM_TESTS=ON
 build_targets
 # Tests run more threads than most machines have cores.
 use_mpi_settings $((2 * $(cores)))
-# Some tests wait longer than they compute: one more of them than there are cores.
+# Some tests wait longer than they compute: two more of them than there are cores.
 exec ctest --test-dir "$build" --output-on-failure --no-tests=error \
-    --parallel $(($(cores) + 1)) "$@" </dev/null
+    --parallel $(($(cores) + 2)) "$@" </dev/null
