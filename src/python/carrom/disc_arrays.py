@@ -89,15 +89,18 @@ class DiscArrays(ABC):
     @cached_property
     def psi6(self) -> Array:
         """Hexatic order (N,), complex, over Voronoi neighbours of the same weight."""
-        raise NoDataError("no psi6; frames of a trajectory have it if output.trajectory.fields "
-                          "names it; in a simulation of this process name it in "
-                          "output.measurements.quantities, and read sim.tables['psi6_history']")
+        raise NoDataError(
+            "no psi6; frames of a trajectory have it if output.trajectory.fields "
+            "names it; in a simulation of this process name it in "
+            "output.measurements.quantities, and read sim.tables['psi6_history']"
+        )
 
     @cached_property
     def neighbours(self) -> Array:
         """Numbers of Voronoi neighbours, (N,) integers."""
-        raise NoDataError("no neighbours; frames of a trajectory have them if "
-                          "output.trajectory.fields names them")
+        raise NoDataError(
+            "no neighbours; frames of a trajectory have them if output.trajectory.fields names them"
+        )
 
     @cached_property
     def image(self) -> Array:
