@@ -46,7 +46,7 @@ class Simulation {
 public:
     /// Makes the scene at step 0. Throws InputError with all problems of the scene and its discs.
     /// With `time.accuracy` a pilot run first chooses method and micro-steps, which `scene()` then
-    /// contains. Of the tables under `output` only `output.measurements` is used, and no file is
+    /// contains. Only `output.measurements` of the tables under `output` is used, and no file is
     /// written. Memory of all ranks together: at least 94 bytes a disc (event-driven method: 120).
     /// The session must outlive the simulation. **Collective.**
     Simulation(const Session& session, const Scene& scene, const Options& options = {});

@@ -39,7 +39,7 @@ class ContactGuard {
 public:
     /// The share of the distance between centres by which two discs approach during a contact.
     static constexpr double pair_share = 1e-6;
-    /// The same share for a disc and its mirror image behind a wall or a fixed body.
+    /// This is the share for a disc and its mirror image behind a wall or a fixed body.
     static constexpr double wall_share = 1e-4;
 
     /// No disc is larger than `radius`.

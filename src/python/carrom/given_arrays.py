@@ -5,13 +5,15 @@ from __future__ import annotations
 
 import operator
 import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from carrom.disc_arrays import Array
-from carrom.errors import SceneError
+from carrom.errors import FileError, SceneError
 
 if TYPE_CHECKING:
     from carrom import _core
@@ -63,21 +65,34 @@ def checked(name: str, unit: str, values: Any, shape: tuple[int, ...]) -> Array:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
-_OF_A_RANK = re.compile(r"rank (\d+): (TypeError|ValueError|SceneError): (.*)", re.DOTALL)
+_KINDS: dict[str, Callable[[str], Exception]] = {
+    "TypeError": TypeError,
+    "ValueError": ValueError,
+    "FileError": FileError,
+    "SceneError": lambda text: SceneError([text], 2),
+}
+_OF_A_RANK = re.compile(rf"rank (\d+): ({'|'.join(_KINDS)}): (.*)", re.DOTALL)
 
 
-def agree_on(core: _core.Core, error: TypeError | ValueError | None) -> None:
-    """Raise the error of the first rank that has one, on all ranks. Collective.
+@contextmanager
+def agreed(core: _core.Core) -> Iterator[None]:
+    """Check arguments of a call that all ranks make. Collective.
 
-    Otherwise ranks without an error would wait in the next call for the one that has left it.
+    If the checks of a rank fail, all ranks raise the error of the first such rank. Otherwise ranks
+    without an error would wait in the next call for the one that has left it.
 
     Raises:
-        TypeError, ValueError, SceneError: as on that rank
+        TypeError, ValueError, FileError, SceneError: as on that rank
         SceneError: ranks make different calls
     """
+    error: Exception | None = None
+    try:
+        yield
+    except (TypeError, ValueError, FileError) as found:  # SceneError is a ValueError
+        if core.ranks == 1:
+            raise
+        error = found
     if core.ranks == 1:
-        if error is not None:
-            raise error
         return
     try:
         core.agree_on([] if error is None else [f"{type(error).__name__}: {error}"])
@@ -85,7 +100,4 @@ def agree_on(core: _core.Core, error: TypeError | ValueError | None) -> None:
         match = _OF_A_RANK.fullmatch(found.lines[0])
         if match is None:
             raise
-        text = f"{match[3]} (on rank {match[1]})"
-        if match[2] == "SceneError":
-            raise SceneError([text], 2) from error
-        raise (TypeError if match[2] == "TypeError" else ValueError)(text) from error
+        raise _KINDS[match[2]](f"{match[3]} (on rank {match[1]})") from error

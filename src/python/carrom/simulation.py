@@ -24,7 +24,7 @@ from carrom.core_module import load
 from carrom.destinations import refuse_owned
 from carrom.disc_arrays import Array
 from carrom.errors import CarromError
-from carrom.given_arrays import agree_on, checked, locked, whole
+from carrom.given_arrays import agreed, checked, locked, whole
 from carrom.guarded import Guarded
 from carrom.held_core import Closable, HeldCore
 from carrom.launching import CarromWarning, ProgressLike
@@ -283,14 +283,10 @@ class Simulation(Closable, Guarded):
     def _change(self, given: dict[str, npt.ArrayLike]) -> None:
         core = self._core
         arrays: dict[str, Array | None] = dict.fromkeys(_UNITS)
-        wrong: TypeError | ValueError | None = None
-        try:
+        with agreed(core):
             for name, values in given.items():
                 shape = (self.n_discs,) if name == "spins" else (self.n_discs, 2)
                 arrays[name] = checked(name, _UNITS[name], values, shape)
-        except (TypeError, ValueError) as error:
-            wrong = error
-        agree_on(core, wrong)
         core.change(**arrays)
         self._changes.note(given, self.step)
 
@@ -370,8 +366,10 @@ class Simulation(Closable, Guarded):
         """Write the state as a whole file or not at all, and return its path.
 
         `carrom.Simulation(path)` and `carrom run --restart` go on from it with the same bits.
+        On several ranks all of them raise the error of the first rank that has one.
         """
-        refuse_owned(path, begins=(b"\x89HDF",))
+        with agreed(self._core):
+            refuse_owned(path, begins=(b"\x89HDF",))
         self._core.write_checkpoint(os.fspath(path))
         return Path(path)
 

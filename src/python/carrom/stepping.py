@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from carrom.actions import Actions, Simulated
 from carrom.errors import SceneError
-from carrom.given_arrays import agree_on, whole
+from carrom.given_arrays import agreed, whole
 
 if TYPE_CHECKING:
     from carrom import _core
@@ -25,8 +25,8 @@ def end_of_run(core: _core.Core, steps: Any, last_step: int) -> int:
         SceneError: it is not from the present step to `last_step`
         TypeError: `steps` is no whole number
     """
-    end, wrong = int(core.step), None
-    try:
+    end = int(core.step)
+    with agreed(core):
         n = whole("run takes a whole number of steps", steps)
         end += n
         if n < 0 or end > last_step:
@@ -37,9 +37,6 @@ def end_of_run(core: _core.Core, steps: Any, last_step: int) -> int:
                 ],
                 2,
             )
-    except (TypeError, ValueError) as error:
-        wrong = error
-    agree_on(core, wrong)
     return end
 
 

@@ -113,13 +113,19 @@ try:
 except carrom.SceneError as error:
     if comm.rank == 0:
         print(error, flush=True)
+for rank in (0, 1):
+    try:
+        sim.checkpoint("." if comm.rank == rank else "c.h5")
+    except carrom.FileError as error:
+        if comm.rank == 0:
+            print(error, flush=True)
 sim.run(10)
 """
 
 
-def test_one_wrong_number_of_steps_is_an_error_of_all_ranks(tmp_path: Path) -> None:
+def test_one_wrong_number_of_steps_or_path_is_an_error_of_all_ranks(tmp_path: Path) -> None:
     lines = on_two_ranks(ONE_WRONG_RUN, tmp_path)
-    assert len(lines) == 9, lines
+    assert len(lines) == 11, lines
     of_rank_0, of_rank_1 = lines[:4], lines[4:8]
     assert of_rank_0 == [
         "TypeError run takes a whole number of steps, not 2.5 (on rank 0)",
@@ -131,6 +137,8 @@ def test_one_wrong_number_of_steps_is_an_error_of_all_ranks(tmp_path: Path) -> N
     ]
     assert of_rank_1 == [line.replace("rank 0", "rank 1") for line in of_rank_0]
     assert "different" in lines[8]
+    for rank in (0, 1):
+        assert lines[9 + rank] == f".: is not a plain file (on rank {rank})"
 
 
 ENDS = f"""
