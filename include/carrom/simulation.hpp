@@ -67,6 +67,9 @@ public:
 
     const SceneFacts& scene() const; ///< facts of the scene; not collective
     std::int64_t step() const;       ///< steps since the scene's start; not collective
+    /// The sides of the box, which `effects.barostat.axes` can change; without it those of the
+    /// scene. Not collective.
+    Box box() const;
 
     /// Simulates to the end of `step`. Throws InputError if `step` is before the present step or
     /// after `time.steps`. **Collective.**

@@ -51,8 +51,8 @@ StateCheck::StateCheck(const SceneParameters& scene, const SpeciesTable& species
                        const Communicator& communicator, const Frame& frame, double time,
                        std::span<const double> spins, double energy_given)
     : scene_(scene), effects_(per_micro_step(scene)),
-      fixed_bodies_(scene.box, scene.radius, effects_), species_(species),
-      communicator_(communicator),
+      fixed_bodies_(scene.box, scene.radius, effects_), species_(species), box_(scene.box),
+      box_before_(scene.box), communicator_(communicator),
       first_id_(slab_begin(communicator.rank(), scene.n_discs, communicator.size())),
       micro_steps_done_(micro_steps_done), micro_steps_before_(micro_steps_done),
       tolerance_(StableArithmetic::tolerance(scene.box, 2 * scene.radius)) {
@@ -112,6 +112,9 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     work_of_images_ = work_of_images;
     energy_given_before_ = std::exchange(energy_given_, energy_given);
     size_before_ = std::exchange(size_, now.size);
+    box_before_ = box_;
+    if (now.periods.x != 0) box_.x = now.periods.x; // an effect may change the sides
+    if (now.periods.y != 0) box_.y = now.periods.y;
     before_ = known_;
     micro_steps_before_ = std::exchange(micro_steps_done_, micro_steps_done);
     const std::span<const DiscState> own = now.population.discs.first(now.population.n_own);
@@ -155,7 +158,7 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
     if (first.disc < scene_.n_discs)
         for (const SceneDisc& each :
              discs_around(first, discs_before(), slab_of_disc(first.disc), log,
-                          scene_.effects.periods(scene_.box), communicator_)) {
+                          scene_.effects.periods(box_before_), communicator_)) {
             discs.push_back(each.disc);
             if (effects_.have_spins()) spins.push_back(each.spin);
             if (effects_.swap.is_on()) radii.push_back(species_.of(each.disc.id).radius);
@@ -171,14 +174,14 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
 Extent StateCheck::walls_before() const {
     Effects effects = effects_;
     for (Boundary& side : effects.boundaries) side.speed = 0;
-    return extent_at(effects, scene_.box, static_cast<double>(micro_steps_before_));
+    return extent_at(effects, box_before_, static_cast<double>(micro_steps_before_));
 }
 
 /// The discs of this rank's slab at the last check.
 std::vector<SceneDisc> StateCheck::discs_before() const {
     const auto clock = static_cast<double>(micro_steps_before_ % scene_.sync_every);
     const auto unit = static_cast<double>(scene_.micro_steps);
-    const Periods periods = scene_.effects.periods(scene_.box);
+    const Periods periods = scene_.effects.periods(box_before_);
     const Extent walls = walls_before();
     std::vector<SceneDisc> discs;
     for (const Known& known : before_) {
@@ -368,7 +371,7 @@ double StateCheck::blur(double n_ulps) const {
     constexpr double ulp = std::numeric_limits<double>::epsilon();
     const double time = ulp * static_cast<double>(
                                   scene_.sync_every); // rounding error of a time just before a sync
-    return n_ulps * ulp * scene_.box.longest() + 2 * fastest_ * time;
+    return n_ulps * ulp * box_.longest() + 2 * fastest_ * time;
 }
 
 } // namespace carrom

@@ -191,6 +191,7 @@ private:
     bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< see CheckAllowance
     /// Energy that effects at syncs gave on this rank, now and at the last inspection
     double energy_given_ = 0, energy_given_before_ = 0;
+    Box box_, box_before_;              ///< sides of the box now and at the last inspection
     double size_ = 1, size_before_ = 1; ///< LocalView::size now and at the last inspection
     Communicator communicator_;
     std::uint64_t first_id_ = 0;

@@ -32,7 +32,7 @@ Extent room_in(const Extent& box, const Effects& effects, double radius, Method 
 Finding StateCheck::first_out_of_place(const LocalView& now) const {
     const GridGeometry& geometry = now.grid->geometry();
     const double allowed = scene_.effects.are_any() ? blur(64) : blur(4);
-    const Extent box = extent_at(effects_, scene_.box, static_cast<double>(micro_steps_done_));
+    const Extent box = extent_at(effects_, box_, static_cast<double>(micro_steps_done_));
     std::optional<Finding> first;
     const auto add = [&](Invariant invariant, DiscId id, double value, double bound) {
         if (!first || invariant < first->invariant)

@@ -85,6 +85,14 @@ std::vector<int> Domains::neighbours_within(int rank, double reach) const {
     return neighbours;
 }
 
+Domains Domains::stretched(double along_x, double along_y) const {
+    const auto factor = [&](Axis of) { return of == Axis::x ? along_x : along_y; };
+    std::vector<Strips> groups;
+    for (const Strips& group : groups_)
+        groups.push_back(group.stretched(factor(other_axis(axis()))));
+    return {strips_.stretched(factor(axis())), std::move(groups)};
+}
+
 std::vector<int> movers_between(const Domains& before, const Domains& after, int rank,
                                 double distance) {
     ensure(before.size() == after.size(), "domains before and after are of different numbers");

@@ -75,6 +75,9 @@ public:
     /// within reach.
     std::vector<int> neighbours_within(int rank, double reach) const;
 
+    /// The domains of a box that has become longer by these factors above 0.
+    Domains stretched(double along_x, double along_y) const;
+
     friend bool operator==(const Domains&, const Domains&) = default;
 
 private:

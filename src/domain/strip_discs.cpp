@@ -98,6 +98,20 @@ StripDiscs::StripDiscs(const Communicator& communicator, const Box& box, DiscSta
     n_own_ = discs_.size();
 }
 
+void StripDiscs::reshape(const Box& box) {
+    const double along_x = box.x / box_.x, along_y = box.y / box_.y;
+#pragma omp parallel for num_threads(n_threads_) schedule(static)
+    for (std::size_t i = 0; i < n_own_; ++i) {
+        discs_[i].x *= along_x;
+        discs_[i].y *= along_y;
+    }
+    domains_ = domains_.stretched(along_x, along_y);
+    redistributed_domains_ = redistributed_domains_.stretched(along_x, along_y);
+    box_ = box;
+    periods_.x = box.x;
+    periods_.y = box.y;
+}
+
 /// The position of the disc's image in the box at `time`, along the strips' axis and across it.
 std::pair<double, double> StripDiscs::place_in_box(const DiscState& disc, double time) const {
     DiscState in_box = disc;

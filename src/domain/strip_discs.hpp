@@ -130,6 +130,10 @@ public:
     const Periods& periods() const { return periods_; }
     /// Call it after each sync, because a sync moves the origin of time for moving images.
     void set_periods(const Periods& periods) { periods_ = periods; }
+    /// Gives a periodic box other sides, and stretches domains and the positions of own discs with
+    /// their axis. There must be no halo. A stretched position may lie on the upper side of the
+    /// box.
+    void reshape(const Box& box);
     /// Whether no rank has a halo, because there is one rank and no periodic side.
     bool has_no_halo() const { return communicator_.size() == 1 && !periods_.are_any(); }
     /// Removes images of own discs until the next migration. If `are_in_box`, as after a sync, that

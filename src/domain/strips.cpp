@@ -24,6 +24,12 @@ Strips::Strips(std::vector<double> cuts, Axis axis) : cuts_(std::move(cuts)), ax
            "a cut between strips is not a finite number");
 }
 
+Strips Strips::stretched(double factor) const {
+    std::vector<double> cuts = cuts_;
+    for (double& cut : cuts) cut *= factor;
+    return Strips(std::move(cuts), axis_);
+}
+
 double Strips::low(int rank) const {
     return rank == 0 ? -infinity : cuts_[static_cast<std::size_t>(rank) - 1];
 }

@@ -57,6 +57,9 @@ public:
     /// strip. Cost: the number of strips within reach.
     std::vector<int> neighbours_within(int rank, double reach) const;
 
+    /// The strips of an axis that has become longer by this factor above 0.
+    Strips stretched(double factor) const;
+
     friend bool operator==(const Strips&, const Strips&) = default;
 
 private:

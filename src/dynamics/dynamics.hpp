@@ -78,6 +78,12 @@ public:
         if constexpr (OfBodies::grow) bodies_.resize(size);
     }
 
+    /// Gives the box other sides. Only for bodies that can grow, in a scene whose sides are all
+    /// periodic.
+    void reshape([[maybe_unused]] const Box& box) {
+        if constexpr (OfBodies::grow) Base::reshape(box);
+    }
+
     // Properties of the scene.
 
     /// Whether discs can meet walls or fixed bodies.

@@ -258,12 +258,19 @@ struct Activity {
     friend bool operator==(const Activity&, const Activity&) = default;
 };
 
+/// Whether a barostat keeps the ratio of the box's sides, or changes each side alone.
+enum class BarostatAxes { together, each };
+
 /// Changes of the volume at syncs (scene/effects/barostat.cpp).
 struct Barostat {
     double pressure = 0; ///< P times the mean squared diameter over kT; 0 means no barostat
+    BarostatAxes axes = BarostatAxes::together;
     std::uint64_t seed = 4321;
 
     bool is_on() const { return pressure != 0; }
+    /// The shortest and the longest that a side of the box can become, relative to the scene's box
+    double shortest_side() const { return is_on() && axes == BarostatAxes::each ? 0.5 : 1; }
+    double longest_side() const { return 1 / shortest_side(); }
     friend bool operator==(const Barostat&, const Barostat&) = default;
 };
 

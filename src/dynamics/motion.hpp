@@ -80,6 +80,14 @@ public:
     {
         return space_.periods();
     }
+    /// Gives a box that is periodic along both axes other sides.
+    void reshape(const Box& box)
+        requires(is_periodic && !has_moving_images)
+    {
+        box_ = box;
+        tolerance_ = Arithmetic::tolerance(box_, 2 * radius_);
+        space_.reshape(box);
+    }
     /// Brings a state that a sync has just advanced back into the box.
     CARROM_DEVICE void wrap(DiscState& disc) const
         requires is_periodic

@@ -105,6 +105,12 @@ public:
     }
     CARROM_DEVICE const Periods& periods() const { return periods_; }
     CARROM_DEVICE void wrap(DiscState& disc) const { periods_.wrap(disc, disc.tau); }
+    /// Gives a box that is periodic along both axes other sides.
+    void reshape(const Box& box) {
+        periods_.x = box.x;
+        periods_.y = box.y;
+        slack_ = 0x1p-36 * box.longest();
+    }
 
 private:
     Periods periods_;

@@ -18,6 +18,8 @@
 #include <span>
 #include <vector>
 
+#include <carrom/box.hpp>
+
 #include "core/disc_state.hpp"
 #include "core/exact_sum.hpp"
 #include "core/random_numbers.hpp"
@@ -112,6 +114,27 @@ public:
     virtual void change(std::int64_t n_syncs, double room) = 0;
 };
 
+/// A range of factors for the side of the box along x. The side along y is divided by the factor,
+/// so that the area stays as it is.
+struct StretchRange {
+    double least = 1, most = 1;
+};
+
+/// The sides of a periodic box, which an effect changes at syncs. The box keeps its area, and
+/// positions are stretched with their axis. All functions return the same on all ranks.
+class ShapeChange {
+public:
+    virtual ~ShapeChange() = default;
+
+    /// The present sides.
+    virtual Box box() const = 0;
+    /// The largest factor by which a change makes a side longer or shorter.
+    virtual double largest_stretch() const = 0;
+    /// Changes the sides. Within `room` no two discs overlap; it contains 1 and may be wider than
+    /// `largest_stretch`.
+    virtual void stretch(std::int64_t n_syncs, const StretchRange& room) = 0;
+};
+
 /// A disc that has come in through an open side during the interval before a sync. Its place of
 /// entry is where discs depart.
 struct Arrival {
@@ -157,6 +180,9 @@ public:
     /// The change of radii, for an effect that changes them; null for all others. At most one
     /// effect may change radii.
     virtual SizeChange* sizes() { return nullptr; }
+    /// The change of the box's sides, for an effect that changes them; null for all others. Only an
+    /// effect that changes radii may change sides.
+    virtual ShapeChange* shape() { return nullptr; }
     /// The source of an effect that lets discs in; null for all others. At most one effect has one.
     virtual DiscSource* source() { return nullptr; }
 

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <carrom/box.hpp>
+
 #include "cell_list/cell_grid.hpp"
 #include "cell_list/population.hpp"
 #include "core/disc_state.hpp"
@@ -75,6 +77,8 @@ public:
     virtual const SpeciesTable& species_table() const = 0;
     /// The factor by which an effect at syncs has changed all radii of the table.
     virtual double size() const { return 1; }
+    /// The sides of the box, which an effect may have changed. Walls that move do not affect them.
+    virtual Box box() const = 0;
     virtual double clock() const = 0;
     virtual Frame frame() const { return {}; } ///< the frame of the own discs at `clock()`
     /// Number of discs on all ranks, departed ones included

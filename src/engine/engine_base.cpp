@@ -14,19 +14,10 @@
 #include "engine/long_flights.hpp"
 #include "engine/near_pairs.hpp"
 #include "engine/state_sums.hpp"
+#include "engine/stretch_room.hpp"
 #include "engine/window_choice.hpp"
 
 namespace carrom {
-
-void Engine::record_crossing(const DiscState& disc, double x, double y, const Periods& periods) {
-    const auto lengths = [](double far, double period) {
-        return period == 0 ? 0 : std::round(far / period);
-    };
-#pragma omp critical(crossings)
-    for (std::vector<Crossing>* crossings : crossings_)
-        crossings->push_back(
-            {disc.id, lengths(x - disc.x, periods.x), lengths(y - disc.y, periods.y)});
-}
 
 namespace {
 
@@ -54,9 +45,10 @@ SideColumns stored_columns(const Dynamics& dynamics, const SceneParameters& scen
 template <class Dynamics>
 EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state,
                                  const Communicator& communicator, const Tuning& tuning)
-    : communicator_(communicator), tuning_(tuning), dynamics_(dynamics_of<Dynamics>(scene)),
+    : communicator_(communicator), tuning_(tuning),
+      dynamics_(dynamics_of<Dynamics>(scene, SyncAction::box_at(scene, state.kept_by_effects))),
       micro_steps_(scene.micro_steps), sync_every_(scene.sync_every),
-      discs_(communicator, scene.box, std::move(state.discs), scene.effects.periods(scene.box),
+      discs_(communicator, box(), std::move(state.discs), scene.effects.periods(box()),
              stored_columns(dynamics_, scene, state), tuning.threads,
              group_choice(scene.method, tuning)),
       n_micro_done_(state.micro_steps_done), species_(dynamics_.species_table()),
@@ -188,7 +180,7 @@ template <class Dynamics> void EngineBase<Dynamics>::sync() {
     dynamics_.begin_interval(last_sync());
     if constexpr (Dynamics::is_periodic) discs_.set_periods(dynamics_.periods());
     if (sync_action_.has_effects()) largest_speed = let_effects_act();
-    if (SizeChange* const sizes = sync_action_.sizes()) change_sizes(*sizes);
+    if (sync_action_.sizes()) change_volume();
     DiscSource* const source = Dynamics::may_lose_discs ? sync_action_.source() : nullptr;
     if (source) largest_speed = std::max(largest_speed, let_discs_in(*source));
     finish_sync(largest_speed);
@@ -280,17 +272,31 @@ template <class Dynamics> double EngineBase<Dynamics>::largest_speed_of_all_stat
     return std::sqrt(fastest);
 }
 
-/// Lets an effect change all radii, at most until the closest two discs touch. States are those
-/// after the sync, at time 0.
-template <class Dynamics> void EngineBase<Dynamics>::change_sizes(SizeChange& sizes) {
+/// Lets an effect change all radii, and perhaps the ratio of the box's sides, at most until the
+/// closest two discs touch. States are those after the sync, at time 0.
+template <class Dynamics> void EngineBase<Dynamics>::change_volume() {
+    SizeChange& sizes = *sync_action_.sizes();
+    ShapeChange* const shape = sync_action_.shape();
     const std::int64_t n_syncs = n_micro_done_ / sync_every_;
-    fetch_neighbours(dynamics_.search_diameter() * sizes.largest_at(n_syncs));
-    const double room = largest_size(population(), discs_.grid(),
-                                     touching_of(dynamics_, 0, discs_.periods()), communicator_,
+    const double stretch = shape ? shape->largest_stretch() : 1;
+    fetch_neighbours(dynamics_.search_diameter() * sizes.largest_at(n_syncs) * stretch);
+    const auto touching = [this] { return touching_of(dynamics_, 0, discs_.periods()); };
+    const double room = largest_size(population(), discs_.grid(), touching(), communicator_,
                                      tuning_.threads);
-    forget_neighbours();
     sizes.change(n_syncs, room);
     dynamics_.resize(sizes.size());
+    if (shape)
+        shape->stretch(n_syncs, stretch_room(population(), discs_.grid(), touching(),
+                                             place_margin(), communicator_, tuning_.threads));
+    forget_neighbours();
+    if (shape) reshape(shape->box());
+}
+
+/// Stretches the box and the positions of all discs. States are those after the sync, at time 0.
+template <class Dynamics> void EngineBase<Dynamics>::reshape(const Box& box) {
+    dynamics_.reshape(box);
+    discs_.reshape(box);
+    for (DiscState& disc : discs_.own()) wrap(disc);
 }
 
 /// Fetches a halo in the middle of a sync, when all states are at time 0 already.

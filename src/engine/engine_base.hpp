@@ -49,6 +49,7 @@ public:
         integral.weight += flown_before_;
         return integral;
     }
+    Box box() const final { return dynamics_.box(); }
     std::uint64_t n_discs() const final { return discs_.n_with_departed(); }
     double energy_given() const final { return sync_action_.energy_given(); }
     std::vector<std::int64_t> kept_by_effects() const final { return sync_action_.kept(); }
@@ -145,7 +146,8 @@ private:
     double let_effects_act();
     void let_effects_begin();
     double largest_speed_of_all_states() const;
-    void change_sizes(SizeChange& sizes);
+    void change_volume();
+    void reshape(const Box& box);
     double let_discs_in(DiscSource& source);
     void fetch_neighbours(double reach);
     void forget_neighbours();

@@ -10,6 +10,28 @@
 
 namespace carrom {
 
+namespace {
+
+void restore(const SyncEffects& effects, std::span<const std::int64_t> kept) {
+    if (kept.empty()) return;
+    for (const auto& effect : effects) {
+        if (kept.empty()) throw CollectiveError("the state has no numbers of some effect");
+        const auto n = static_cast<std::size_t>(kept.front());
+        kept = kept.subspan(1);
+        if (n > kept.size()) throw CollectiveError("the state has too few numbers of an effect");
+        effect->go_on(kept.first(n));
+        kept = kept.subspan(n);
+    }
+}
+
+ShapeChange* shape_of(const SyncEffects& effects) {
+    for (const auto& effect : effects)
+        if (ShapeChange* const its = effect->shape()) return its;
+    return nullptr;
+}
+
+} // namespace
+
 SyncAction::SyncAction(const SceneParameters& scene, const SpeciesTable& species,
                        const Communicator& communicator, int n_threads)
     : effects_(sync_effects_of(scene)), species_(species), inertia_(scene.effects.contact.inertia),
@@ -87,16 +109,15 @@ std::vector<std::int64_t> SyncAction::kept() const {
     return all.size() > effects_.size() ? all : std::vector<std::int64_t>{};
 }
 
-void SyncAction::go_on(std::span<const std::int64_t> kept) {
-    if (kept.empty()) return;
-    for (const auto& effect : effects_) {
-        if (kept.empty()) throw CollectiveError("the state has no numbers of some effect");
-        const auto n = static_cast<std::size_t>(kept.front());
-        kept = kept.subspan(1);
-        if (n > kept.size()) throw CollectiveError("the state has too few numbers of an effect");
-        effect->go_on(kept.first(n));
-        kept = kept.subspan(n);
-    }
+void SyncAction::go_on(std::span<const std::int64_t> kept) { restore(effects_, kept); }
+
+ShapeChange* SyncAction::shape() const { return shape_of(effects_); }
+
+Box SyncAction::box_at(const SceneParameters& scene, std::span<const std::int64_t> kept) {
+    const SyncEffects effects = sync_effects_of(scene);
+    restore(effects, kept);
+    const ShapeChange* const shape = shape_of(effects);
+    return shape ? shape->box() : scene.box;
 }
 
 void SyncAction::follow(SyncDiscs& at, const SyncNotes& notes) const {

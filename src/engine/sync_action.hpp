@@ -35,6 +35,8 @@ public:
             if (SizeChange* const its = effect->sizes()) return its;
         return nullptr;
     }
+    /// The change of the box's sides by an effect; null if no effect changes them.
+    ShapeChange* shape() const;
     /// The source of an effect that lets discs in; null if there is none.
     DiscSource* source() const {
         for (const auto& effect : effects_)
@@ -61,6 +63,9 @@ public:
     /// Empty if no effect keeps any.
     std::vector<std::int64_t> kept() const;
     void go_on(std::span<const std::int64_t> kept);
+    /// The box of a state whose effects kept these values: the scene's box, unless an effect has
+    /// changed its sides.
+    static Box box_at(const SceneParameters& scene, std::span<const std::int64_t> kept);
 
 private:
     SyncDiscs at_sync(StripDiscs& discs, std::int64_t n_syncs) const;

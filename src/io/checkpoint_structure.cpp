@@ -59,7 +59,7 @@ void create_groups(hid_t file, const CheckpointHeader& header, const StoredSampl
         create_columns(file, path, targets, header.n_discs);
     };
     h5md::write_system(file, header.shown);
-    const std::array<double, 3> edges = h5md::edges_of(header.shown);
+    const std::array<double, 3> edges = h5md::edges_of(header.shown.box);
     h5::write_whole(create_frame(file, "/particles/discs/box/edges", header).id(), "value",
                     std::array<hsize_t, 2>{1, 3}, H5T_NATIVE_DOUBLE, edges.data());
     write_unit(file, h5md::edges_path, h5md::unit_of(header.shown, 1, 0));

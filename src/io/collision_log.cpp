@@ -36,7 +36,7 @@ std::vector<RecordedColumn> recorded_columns(const RecordedSystem& system) {
 void write_structure(hid_t file, const RecordedSystem& system, const LoggedSteps& steps) {
     h5md::write_system(file, system);
     h5md::write_bodies(file, system);
-    h5::write_column(file, "/particles/discs/box/edges", h5md::edges_of(system));
+    h5::write_column(file, "/particles/discs/box/edges", h5md::edges_of(system.box));
     static_cast<void>(h5::create_group(file, "/carrom/collisions"));
     h5::write_scalar(file, last_step_path, steps.last);
     if (!steps.gaps.empty()) h5::write_column(file, h5md::gaps_path, steps.gaps);

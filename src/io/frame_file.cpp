@@ -72,7 +72,7 @@ std::vector<double> read_block(hid_t file, const std::string& path, const h5::Ro
 }
 
 /// Throws FileError if a frame has invalid edges.
-Box box_of_last_frame(hid_t file, std::size_t n_frames) {
+std::vector<Box> boxes_of_frames(hid_t file, std::size_t n_frames) {
     const h5::Dataset dataset = h5::open_checked(file, h5md::edges_path, h5::Shape{n_frames, 3});
     h5::check_storage(dataset, h5md::edges_path);
     std::vector<double> edges(3 * n_frames);
@@ -82,7 +82,9 @@ Box box_of_last_frame(hid_t file, std::size_t n_frames) {
     for (const double edge : edges)
         if (!(std::isfinite(edge) && edge > 0))
             throw FileError("has a box with an edge that is no finite number above 0");
-    return {edges[3 * n_frames - 3], edges[3 * n_frames - 2]};
+    std::vector<Box> boxes;
+    for (std::size_t k = 0; k < edges.size(); k += 3) boxes.emplace_back(edges[k], edges[k + 1]);
+    return boxes;
 }
 
 /// Returns the words of an attribute, all of the same length, one after the other.
@@ -243,7 +245,10 @@ void FrameFile::open_trajectory() {
         state_->sources.push_back(source);
     }
     if (summary_.steps.empty()) return;
-    summary_.box = box_of_last_frame(file, summary_.steps.size());
+    summary_.boxes = boxes_of_frames(file, summary_.steps.size());
+    summary_.box = summary_.boxes.front();
+    for (const Box& box : summary_.boxes)
+        summary_.box = {std::max(summary_.box.x, box.x), std::max(summary_.box.y, box.y)};
 }
 
 /// Reads the first row of each segment, or of a checkpoint.

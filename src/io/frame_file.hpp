@@ -15,7 +15,7 @@ namespace carrom {
 
 enum class FileKind { checkpoint, trajectory, collisions };
 
-/// The description of a file; its box is the box of the last frame.
+/// The description of a file; its box is large enough for the discs of all frames.
 struct FileSummary : RecordedSystem {
     FileKind kind = FileKind::checkpoint;
     /// Whether the file has checksums of all its bytes, as all files of this version do.
@@ -26,6 +26,7 @@ struct FileSummary : RecordedSystem {
     std::uint64_t n_rows = 0;         ///< number of rows: discs, or collisions
     std::size_t bytes_per_number = 8; ///< size of a trajectory's positions and velocities
     std::vector<std::int64_t> steps;  ///< the steps of the frames
+    std::vector<Box> boxes;           ///< the boxes of a trajectory's frames
     std::string state_hash;           ///< hash of a checkpoint; empty for other files
     std::vector<std::int64_t> gaps;   ///< the first and last step of each gap of a log
 

@@ -97,9 +97,7 @@ void write_bodies(hid_t file, const RecordedSystem& system) {
     write_fixed(discs.id(), "species", H5T_NATIVE_INT64, system.n_discs, std::int64_t{0}, numbers);
 }
 
-std::array<double, 3> edges_of(const RecordedSystem& system) {
-    return {system.box.x, system.box.y, 1};
-}
+std::array<double, 3> edges_of(const Box& box) { return {box.x, box.y, 1}; }
 
 std::string unit_of(const RecordedSystem& system, int lengths, int times) {
     std::string text;

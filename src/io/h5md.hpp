@@ -29,7 +29,7 @@ void write_system(hid_t file, const RecordedSystem& system);
 /// no space.
 void write_bodies(hid_t file, const RecordedSystem& system);
 
-std::array<double, 3> edges_of(const RecordedSystem& system);
+std::array<double, 3> edges_of(const Box& box);
 
 /// The unit of length^`lengths` times time^`times`, in the notation of H5MD's module `units`. Empty
 /// if the scene names no units.

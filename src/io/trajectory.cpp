@@ -274,7 +274,7 @@ std::int64_t Trajectory::go_on(std::int64_t step, const DifferenceFrom& differen
 
 void Trajectory::append(std::int64_t step, std::span<const DiscState> discs, double clock,
                         const SideSpans& columns, std::span<const ComputedNumbers> computed_numbers,
-                        std::span<const DiscImage> images) {
+                        std::span<const DiscImage> images, const Box* box) {
     ensure(computed_numbers.size() == discs.size() || layout_.computed == ComputedFieldSet{},
            "computed numbers do not run along the discs");
     layout_.columns.for_each([&](SideColumn column) {
@@ -298,7 +298,7 @@ void Trajectory::append(std::int64_t step, std::span<const DiscState> discs, dou
     }
     file.attempt([&] {
         const auto time = static_cast<double>(step);
-        const std::array<double, 3> edges = h5md::edges_of(layout_.system);
+        const std::array<double, 3> edges = h5md::edges_of(box ? *box : layout_.system.box);
         file.write(fields.size(), std::as_bytes(std::span(&step, 1)));
         file.write(fields.size() + 1, std::as_bytes(std::span(&time, 1)));
         file.write(fields.size() + 2, std::as_bytes(std::span(edges)));

@@ -59,11 +59,12 @@ public:
     /// Adds a frame: the discs at `clock`, in any distribution over the ranks.
     /// Columns and computed numbers of the layout, if any, are in the order of
     /// `discs`. If the layout has images, each rank passes the images of a range
-    /// of ids, which follows the range of the previous rank. **Collective.**
+    /// of ids, which follows the range of the previous rank. `box` is null if its sides are those
+    /// of the layout. **Collective.**
     void append(std::int64_t step, std::span<const DiscState> discs, double clock,
                 const SideSpans& columns = {},
                 std::span<const ComputedNumbers> computed_numbers = {},
-                std::span<const DiscImage> images = {});
+                std::span<const DiscImage> images = {}, const Box* box = nullptr);
 
     /// Makes all frames so far permanent and visible to readers. Writes the XDMF description again
     /// if many frames are missing there. **Collective.**

@@ -31,7 +31,8 @@ class Room {
 public:
     explicit Room(const Run& run)
         : scene_(run.scene()), species_(run.system().species_table()),
-          extent_(extent_at(scene_.effects, scene_.box, static_cast<double>(run.step()))),
+          extent_(extent_at(scene_.effects, run.system().engine().box(),
+                            static_cast<double>(run.step()))),
           size_(run.system().engine().size() *
                 scene_.effects.size_at(static_cast<double>(run.step()))),
           rounding_(32 * 0x1p-53 * scene_.box.longest()),

@@ -147,6 +147,7 @@ Simulation Simulation::from_checkpoint(const Session& session, const std::string
 
 const SceneFacts& Simulation::scene() const { return live().facts; }
 std::int64_t Simulation::step() const { return live().run().step(); }
+Box Simulation::box() const { return live().run().system().engine().box(); }
 
 void Simulation::advance(std::int64_t n_steps) {
     const std::int64_t left = live().facts.steps - step();

@@ -14,7 +14,7 @@ namespace carrom {
 /// Counts the box lengths by which syncs move discs back into the box, because they are part of
 /// displacements.
 void Flights::follow() {
-    if (follows_lengths()) lengths_.emplace(run_.scene.box, run_.system, run_.ranks);
+    if (follows_lengths()) lengths_.emplace(run_.system, run_.ranks);
 }
 
 std::span<const DiscState> Flights::flown(std::span<const DiscState> shown) {

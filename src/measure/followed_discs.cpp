@@ -19,8 +19,7 @@ void FollowedDiscs::begin() {
     first_id_ = pieces.begin(pieces.first_of(run_.ranks.rank()));
     n_own_ = pieces.begin(pieces.first_of(run_.ranks.rank() + 1)) - first_id_;
     speed_ = std::max(usual_speed(run_), 0x1p-200);
-    if (run_.scene.effects.are_periodic())
-        lengths_.emplace(run_.scene.box, run_.system, run_.ranks);
+    if (run_.scene.effects.are_periodic()) lengths_.emplace(run_.system, run_.ranks);
 }
 
 const FollowedStates& FollowedDiscs::now() {

@@ -20,8 +20,8 @@ DiscStates flown_on(const DiscSystem& system) {
     return discs;
 }
 
-ImageCounts::ImageCounts(const Box& box, DiscSystem& system, const Communicator& ranks)
-    : box_(box), system_(system), ranks_(ranks),
+ImageCounts::ImageCounts(DiscSystem& system, const Communicator& ranks)
+    : system_(system), ranks_(ranks),
       pieces_(ranks.sum(std::uint64_t{system.discs().size()}), ranks.size()) {
     const std::uint64_t end = pieces_.begin(pieces_.first_of(ranks_.rank() + 1));
     for (DiscId id = pieces_.begin(pieces_.first_of(ranks_.rank())); id < end; ++id)
@@ -68,11 +68,12 @@ std::vector<DiscImage> ImageCounts::now() {
     std::vector<DiscImage> images = counts_;
     const DiscStates flown = flown_on(system_);
     const std::span<const DiscState> shown = system_.shown();
+    const Box box = system_.engine().box();
     std::vector<Crossing> in_flight;
     for (std::size_t i = 0; i < flown.size(); ++i)
         if (flown[i].x != shown[i].x || flown[i].y != shown[i].y)
-            in_flight.push_back({flown[i].id, std::round((flown[i].x - shown[i].x) / box_.x),
-                                 std::round((flown[i].y - shown[i].y) / box_.y)});
+            in_flight.push_back({flown[i].id, std::round((flown[i].x - shown[i].x) / box.x),
+                                 std::round((flown[i].y - shown[i].y) / box.y)});
     add(images, in_flight);
     return images;
 }

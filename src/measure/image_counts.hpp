@@ -23,7 +23,7 @@ DiscStates flown_on(const DiscSystem& system);
 class ImageCounts {
 public:
     /// Counts from 0, from the present step on. `system` and `ranks` must outlive this.
-    ImageCounts(const Box& box, DiscSystem& system, const Communicator& ranks);
+    ImageCounts(DiscSystem& system, const Communicator& ranks);
     ~ImageCounts();
     ImageCounts(const ImageCounts&) = delete;
     ImageCounts& operator=(const ImageCounts&) = delete;
@@ -51,7 +51,6 @@ public:
 private:
     void add(std::vector<DiscImage>& counts, std::span<const Crossing> crossings) const;
 
-    Box box_;
     DiscSystem& system_;
     const Communicator& ranks_;
     Pieces pieces_;

@@ -23,8 +23,9 @@ void check_largest_distance(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const Extent end = extent_of_lines(scene.effects, scene.box, static_cast<double>(scene.steps),
                                        1);
-    const double wide = std::min(scene.box.x, end.x_high - end.x_low);
-    const double high = std::min(scene.box.y, end.y_high - end.y_low);
+    const double shortest = scene.effects.barostat.shortest_side();
+    const double wide = shortest * std::min(scene.box.x, end.x_high - end.x_low);
+    const double high = shortest * std::min(scene.box.y, end.y_high - end.y_low);
     const double margin = 2 * scene.radius;
     const double largest = std::min(wide - (scene.effects.is_periodic_x() ? 0 : margin),
                                     high - (scene.effects.is_periodic_y() ? 0 : margin)) /

@@ -156,7 +156,7 @@ SampledState Sampler::state_now(DiscStates& kept) const {
     SampledState state;
     state.shown = run_.system.shown();
     state.n_discs = run_.ranks.sum(std::uint64_t{state.shown.size()});
-    state.box = extent_at(scene.effects, scene.box, static_cast<double>(run_.system.step()));
+    state.box = run_.system.box();
     state.is_first = run_.counts.n_samples == 0;
     state.inside = discs_in_box(state.shown, scene.effects, state.box, run_.system.clock(), kept);
     return state;

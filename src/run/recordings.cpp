@@ -121,8 +121,9 @@ bool Recordings::act() {
         std::vector<ComputedNumbers> computed; // computed first, because this moves discs in memory
         if (scene_.trajectory->computed != ComputedFieldSet{}) computed = computed_numbers(system);
         const std::vector<DiscImage> images = counts ? counts->now() : std::vector<DiscImage>{};
+        const Box box = system.engine().box();
         trajectory_->append(step, system.shown(), system.clock(), system.side_columns(), computed,
-                            images);
+                            images, box == scene_.box ? nullptr : &box);
     }
     commit_now_and_then();
     return true;

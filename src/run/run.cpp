@@ -42,7 +42,7 @@ Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const
         check_memory(scene_, ranks_, more); // checked here, because it needs the positions
     refuse_hard_cases(scene_, system_, ranks_, messages);
     if (start.counts_images || (scene_.trajectory && scene_.trajectory->has_image)) {
-        images_.emplace(scene_.box, system_, ranks_);
+        images_.emplace(system_, ranks_);
         has_earlier_images_ = start.samples.have_images;
         if (has_earlier_images_)
             images_->go_on(start.samples.first_places, &FirstPlace::image_x, &FirstPlace::image_y);

@@ -101,7 +101,17 @@ std::vector<Key> keys_of_quantities() {
 }
 
 std::vector<Rule> rules_of_quantities() {
-    std::vector<Rule> rules;
+    std::vector<Rule> rules = {
+        {.one = "effects.barostat.axes = \"each\"",
+         .other = "a quantity of places, waves or displacements",
+         .why = "its table needs a box whose sides stay as they are; take axes = \"together\"",
+         .keys = {"effects.barostat.axes"},
+         .is_broken = [](const SceneParameters& s) {
+             return s.effects.barostat.axes == BarostatAxes::each &&
+                    std::ranges::any_of(list(), [&s](const Quantity& quantity) {
+                        return quantity.needs_lasting_sides && measures(s, quantity.name);
+                    });
+         }}};
     for (const Quantity& quantity : list())
         rules.insert(rules.end(), quantity.rules.begin(), quantity.rules.end());
     return rules;

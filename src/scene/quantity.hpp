@@ -16,7 +16,8 @@ namespace carrom {
 
 struct Quantity {
     std::string_view name;
-    std::string_view help;           ///< the quantity's text on the page of keys
+    std::string_view help;            ///< the quantity's text on the page of keys
+    bool needs_lasting_sides = false; ///< whether its table needs sides of constant lengths
     std::vector<Key> keys = {};      ///< settings of the quantity; several quantities can share one
     bool has_history = false;        ///< whether its tables grow with each sample
     bool follows_collisions = false; ///< whether it needs each collision; GPUs do not record them

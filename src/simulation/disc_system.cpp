@@ -243,7 +243,9 @@ double DiscSystem::clock() const { return engine_->clock(); }
 
 std::uint64_t DiscSystem::n_discs() const { return engine_->n_discs(); }
 
-Extent DiscSystem::box() const { return extent_at(effects_, box_, static_cast<double>(step())); }
+Extent DiscSystem::box() const {
+    return extent_at(effects_, engine_->box(), static_cast<double>(step()));
+}
 
 void DiscSystem::log_to(std::vector<Collision>* log) {
     log_ = log;

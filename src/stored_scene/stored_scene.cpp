@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/errors.hpp"
+#include "engine/engine.hpp"
 #include "machine/machine.hpp"
 #include "scene/compare.hpp"
 #include "scene/disc_columns.hpp"
@@ -40,8 +41,10 @@ CheckpointHeader header_now(const SceneParameters& scene, const DiscSystem& syst
     header.step = system.step();
     header.micro_steps_done = system.micro_steps_done();
     header.frame = system.frame();
+    header.set_box(system.engine().box());
     header.columns = side_columns_of(scene);
     header.shown = system_of(scene);
+    if (header.box() != scene.box) header.shown.box = header.box();
     return header;
 }
 

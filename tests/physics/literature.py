@@ -10,6 +10,7 @@ enskog     decay of the velocity autocorrelation, and D, over Enskog's
 haff       granular gases that cool, against Haff's law
 melting    P* and psi6 of 128^2 discs through melting, against Li and others
 barostat   packing of 870 discs at constant P*, against Li and others and runs at constant volume
+axes       sides of a strained crystal at constant P*, against those of a perfect one
 
 The exit code is 1 where a number is further than four joint standard errors from what is known,
 or less than four above or below a bound, or its own error is too large. Seeds are fixed, so a
@@ -312,11 +313,33 @@ def barostat(program, is_short):
         yield solid_at_pressure(program, packing, is_short)
 
 
+def axes(program, is_short):
+    """Ratio of the sides and of the pressures along them, of 16 rows of 16 discs that begin 5 % too
+    low. Rows of a perfect crystal are sqrt(3) / 2 of a spacing apart.
+    """
+    early, steps = (2_000, 8_000) if is_short else (10_000, 100_000)
+    for pressure in (12, 10, 15)[:1 if is_short else None]:
+        report = run(program, "each_axis.toml", effects__barostat__pressure=pressure,
+                     time__steps=early + steps, output__averages_from_step=early,
+                     output__measurements__quantities='["volume"]',
+                     output__measurements__from_step=early)
+        table, tensor = report["measurements"]["volume"], report["pressure_tensor"]
+        xx, yy = tensor["xx"], tensor["yy"]
+        yield {"P": pressure, "discs": 256, "collisions": report["pair_collisions"],
+               "packing": table["packing"][0], "packing_error": table["packing_error"][0],
+               "ratio": table["ratio"][0], "ratio_error": table["ratio_error"][0],
+               "ratio_known": 2 / math.sqrt(3), "ratio_known_error": 1e-4,
+               "tensor": xx["value"] / yy["value"],
+               "tensor_error": math.hypot(xx["error"] / xx["value"], yy["error"] / yy["value"]),
+               "tensor_known": 1, "tensor_known_error": 0}
+
+
 # For each study: the function that makes the rows, and the largest relative errors that are allowed
 # in a short and in the whole study.
 STUDIES = {"pressure": (pressure, 2e-3, 1.5e-4), "li": (li, 2e-3, 3e-4),
            "enskog": (enskog, 0.02, 0.01), "haff": (haff, 0.02, 0.005),
-           "melting": (melting, 5e-3, 2e-3), "barostat": (barostat, 0.5, 0.2)}
+           "melting": (melting, 5e-3, 2e-3), "barostat": (barostat, 0.5, 0.2),
+           "axes": (axes, 0.03, 0.01)}
 
 
 def is_right(row, largest_error):

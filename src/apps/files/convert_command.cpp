@@ -78,7 +78,8 @@ private:
 
 /// The first two lines of a frame of extended XYZ. OVITO reads velocities from `velo`; ASE computes
 /// them from `momenta` and `mass`.
-void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::int64_t step) {
+void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::size_t frame) {
+    const Box& box = summary.boxes.empty() ? summary.box : summary.boxes[frame];
     std::string others;
     for (const std::size_t k : other_columns(summary))
         others += fmt::format(":{}:R:1", summary.columns[k]);
@@ -90,7 +91,7 @@ void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::int
                    "Properties=species:S:1:pos:R:3:velo:R:3:id:I:1:radius:R:1:mass:R:1:"
                    "momenta:R:3{} Time={} "
                    "pbc=\"{} {} F\"\n",
-                   summary.n_rows, summary.box.x, summary.box.y, corner, others, step,
+                   summary.n_rows, box.x, box.y, corner, others, summary.steps[frame],
                    summary.is_periodic_x ? 'T' : 'F', summary.is_periodic_y ? 'T' : 'F');
 }
 
@@ -160,7 +161,7 @@ void write_frames(const FrameFile& file, Format format, DataOutput& output) {
     }
     Rows rows;
     for (std::size_t frame = 0; frame < summary.steps.size() && output.failure().empty(); ++frame) {
-        if (format == Format::xyz) append_header(output.buffer(), summary, summary.steps[frame]);
+        if (format == Format::xyz) append_header(output.buffer(), summary, frame);
         for (std::uint64_t begin = 0; begin < summary.n_rows; begin += rows_at_a_time) {
             const std::uint64_t end = std::min(begin + rows_at_a_time, summary.n_rows);
             file.read_shown(frame, begin, end, rows);

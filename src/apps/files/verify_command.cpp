@@ -126,11 +126,10 @@ private:
 /// Whether a run can have a disc at this position. A disc leaves through an open side when its
 /// centre is a radius beyond it, and then stays at rest. In the time-stepped method a disc that a
 /// collision has pushed out may fly on until the end of its micro-step.
-bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summary) {
+bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summary, const Box& box) {
     if (!rows.are_finite(i)) return false;
     if (!summary.has("x")) return true;
     const double x = rows(i, "x"), y = rows(i, "y"), vx = rows(i, "vx"), vy = rows(i, "vy");
-    const Box& box = summary.box;
     const double rounding = summary.bytes_per_number == 4 ? 0x1p-22 : 0x1p-50;
     const double reach = summary.radius + rounding * (box.longest() + summary.radius);
     const std::array<double, 4> beyond = {-x, x - box.x, -y, y - box.y}, rate = {-vx, vx, -vy, vy};
@@ -159,7 +158,7 @@ void verify_frames(const FrameFile& file, const std::string& path) {
         for (std::uint64_t begin = 0; begin < summary.n_rows; begin += rows_at_a_time) {
             rows.read(frame, begin);
             for (std::size_t i = 0; i < rows.size(); ++i) {
-                if (!is_possible(rows, i, summary))
+                if (!is_possible(rows, i, summary, summary.boxes[frame]))
                     refuse(path, fmt::format("disc {} is outside the box or not finite at step {}",
                                              begin + i, summary.steps[frame]));
             }

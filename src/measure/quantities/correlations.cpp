@@ -359,6 +359,7 @@ bool needs_another_box(const SceneParameters& s) {
 MeasuredQuantity correlations_quantity() {
     return {{.name = "correlations",
              .help = "Displacements, velocities, F_s, alpha_2 and chi_4 over decades of time.",
+             .needs_lasting_sides = true,
              .keys = {correlation_points_key(), hdf5_key(),
                       correlation_wavenumber
                           .number("1/length", "Wave number of F_s.", "pi over the radius")

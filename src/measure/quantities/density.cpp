@@ -75,6 +75,7 @@ private:
 MeasuredQuantity density_quantity() {
     return {{.name = "density",
              .help = "Discs per area in strips along x, and along y.",
+             .needs_lasting_sides = true,
              .keys = {bins_key()}},
             make_measurement<Density>,
             {"density_x", "density_y"}};

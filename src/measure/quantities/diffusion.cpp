@@ -188,6 +188,7 @@ private:
 MeasuredQuantity diffusion_quantity() {
     return {{.name = "diffusion",
              .help = "Coefficient of diffusion, and autocorrelation of velocities.",
+             .needs_lasting_sides = true,
              .keys = {correlation_steps
                           .integer("steps",
                                    "Longest time of diffusion and velocity autocorrelation; then "

@@ -49,6 +49,7 @@ private:
 MeasuredQuantity displacement_quantity() {
     return {{.name = "displacement",
              .help = "Mean square displacement since the first sample.",
+             .needs_lasting_sides = true,
              .has_history = true,
              .rules = {{.one = "sheared sides",
                         .other = "\"displacement\"",

@@ -111,6 +111,7 @@ MeasuredQuantity partial_structure_factor_quantity() {
                      }});
     return {{.name = "partial_structure_factor",
              .help = "S_ab(k) of each two species; they add up to S(k).",
+             .needs_lasting_sides = true,
              .keys = {bins_key(), largest_wavenumber_key()},
              .rules = std::move(rules),
              .check = check_wavenumber},

@@ -7,7 +7,6 @@
 // line is right. Cost: a pass over discs and cells a sample, some hundred instructions a collision.
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -381,6 +380,7 @@ MeasuredQuantity profiles_quantity() {
     return {
         {.name = "profiles",
          .help = "Density, velocity, temperature and pressure tensor on a grid, block by block.",
+         .needs_lasting_sides = true,
          .keys = {grid_key(profile_columns, "Cells of \"profiles\" along x."),
                   grid_key(profile_rows, "Cells of \"profiles\" along y."),
                   profile_samples

@@ -68,6 +68,7 @@ bool is_structure_factor_measured(const SceneParameters& scene) {
 MeasuredQuantity structure_factor_quantity() {
     return {{.name = "structure_factor",
              .help = "S(k), and the wave vector where it is largest.",
+             .needs_lasting_sides = true,
              .keys = {bins_key(), largest_wavenumber_key()},
              .rules = rules_of_waves<is_structure_factor_measured>("\"structure_factor\""),
              .check = check_wavenumber},

@@ -255,6 +255,7 @@ bool is_another_gas(const SceneParameters& s) {
 MeasuredQuantity transport_quantity() {
     return {{.name = "transport",
              .help = "Viscosities and thermal conductivity from exact integrals over events.",
+             .needs_lasting_sides = true,
              .keys = {correlation_points_key(), hdf5_key()},
              .follows_collisions = true,
              .rules = {{.one = "\"transport\"",

@@ -19,9 +19,16 @@ public:
 
     void sample(const SampledState& /*state*/) override {
         sizes_.push_back(run_.system.engine().size());
+        if (!has_sides()) return;
+        const Box box = run_.system.engine().box();
+        widths_.push_back(box.x);
+        heights_.push_back(box.y);
     }
 
-    void keep(KeptNumbers& kept) override { kept(sizes_); }
+    void keep(KeptNumbers& kept) override {
+        kept(sizes_);
+        if (has_sides()) kept(widths_), kept(heights_);
+    }
 
     std::vector<MeasuredTable> tables() const override {
         MeasuredTable over_time = history();
@@ -30,6 +37,8 @@ public:
     }
 
 private:
+    /// Whether the ratio of the box's sides changes.
+    bool has_sides() const { return run_.scene.effects.barostat.axes == BarostatAxes::each; }
     /// The area of the box for each disc, divided by the mean squared diameter in the scene.
     double volume_of_scene() const {
         const SceneParameters& scene = run_.scene;
@@ -48,7 +57,12 @@ private:
         for (std::size_t k = 0; k < sizes_.size(); ++k) {
             const double square = sizes_[k] * sizes_[k];
             table.rows.push_back({run_.step_of(k), sizes_[k], packing * square, volume / square});
+            if (has_sides())
+                table.rows.back().insert(table.rows.back().end(), {widths_[k], heights_[k]});
         }
+        if (!has_sides()) return table;
+        table.remarks.push_back("width, height: sides of the box along x and y");
+        table.columns.insert(table.columns.end(), {"width", "height"});
         return table;
     }
 
@@ -70,10 +84,11 @@ private:
             table.rows[0].push_back(standard_error(terms));
             return mean;
         };
-        std::vector<double> packings, volumes, squares;
+        std::vector<double> packings, volumes, squares, ratios;
         for (const std::vector<double>& row : history.rows) {
             packings.push_back(row[2]);
             volumes.push_back(row[3]);
+            if (has_sides()) ratios.push_back(row[4] / row[5]);
         }
         add("packing", packings);
         const double volume = add("volume", volumes),
@@ -81,10 +96,14 @@ private:
         for (const double one : volumes)
             squares.push_back(n_discs * (one - volume) * (one - volume) / volume);
         add("compressibility", squares);
+        if (!has_sides()) return table;
+        table.remarks.push_back("ratio: of the sides of the box, width over height");
+        add("ratio", ratios);
         return table;
     }
 
     std::vector<double> sizes_;
+    std::vector<double> widths_, heights_; ///< sides of the box, if their ratio changes
 };
 
 } // namespace

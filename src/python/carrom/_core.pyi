@@ -56,6 +56,10 @@ class Core:
         """Facts of the scene, by name."""
 
     @property
+    def box(self) -> tuple[float, float]:
+        """Sides of the box along x and y, lengths."""
+
+    @property
     def kinds(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
         """Radii (N,), lengths; masses (N,); species (N,), int64."""
 

@@ -17,7 +17,6 @@ from carrom.frame import Frame
 class _Source(Protocol):
     """What a frame takes of a simulation, whose module stands above this one."""
 
-    box: Array
     corner: Array
     periodic: tuple[bool, bool]
     masses: Array
@@ -25,6 +24,8 @@ class _Source(Protocol):
 
     @property
     def radii(self) -> Array: ...
+    @property
+    def box(self) -> Array: ...
     @property
     def step(self) -> int: ...
     @property

@@ -56,7 +56,6 @@ class Simulation(Closable, Guarded):
 
     Attributes:
         method: "event-driven" or "time-stepped"
-        box: (2,) edges along x and y, lengths
         corner: (2,) the place of its lower left corner: (0, 0), unless the scene has `box.origin`
         periodic: whether the sides along x and along y are periodic
         masses: (N,) in the scene's unit; 1 unless the scene gives masses
@@ -100,7 +99,7 @@ class Simulation(Closable, Guarded):
         facts, (radii, masses, species) = made.facts, map(locked, made.kinds)
         vars(self).update(
             method=facts["method"],
-            **{name: locked(np.array(facts[name])) for name in ("box", "corner")},
+            corner=locked(np.array(facts["corner"])),
             periodic=facts["periodic"],
             last_step=int(facts["steps"]),
             n_discs=int(facts["n_discs"]),
@@ -116,7 +115,6 @@ class Simulation(Closable, Guarded):
                 warnings.warn(line.removeprefix("warning: ").strip(), CarromWarning, stacklevel=4)
 
     method: str
-    box: Array
     corner: Array
     periodic: tuple[bool, bool]
     _radii: Array | None
@@ -131,6 +129,11 @@ class Simulation(Closable, Guarded):
     def step(self) -> int:
         """Steps since the scene's start."""
         return int(self._core.step)
+
+    @property
+    def box(self) -> Array:
+        """Edges (2,) along x and y, lengths; `effects.barostat.axes = "each"` changes them."""
+        return locked(np.array(self._core.box))
 
     def run(self, steps: int, progress: ProgressLike = None) -> None:
         """Move forward by some steps, and call the actions that are due on the way.

@@ -57,6 +57,13 @@ void add_properties(nb::class_<Core>& core) {
         .def_prop_ro(
             "ranks", [](const Core& core) { return core.session->size(); }, "The number of ranks.")
         .def_prop_ro("facts", facts_of, "Facts of the scene, by name.")
+        .def_prop_ro(
+            "box",
+            [](const Core& core) {
+                const Box box = core.simulation.box();
+                return nb::make_tuple(box.x, box.y);
+            },
+            "Sides of the box along x and y, lengths.")
         .def_prop_ro("kinds", kinds_of, "Radii (N,), lengths; masses (N,); species (N,), int64.")
         .def_prop_ro("ids", ids_of, "Ids of this rank's discs, (n,), int64, ascending.")
         .def_prop_ro("positions", positions_of, of_own_discs("(N, 2), lengths").c_str())

@@ -19,10 +19,19 @@
 // syncs differ by half a cell. So each sync conserves the distribution exactly, and V can reach any
 // value.
 //
+// With `axes = "each"` the ratio of the sides changes as well, at a constant area: x positions are
+// multiplied by a factor t, y positions are divided by it. In units of the discs, each side then
+// has moves of its own. The weight dLx dLy V^N exp(-p V) is that of V times the even distribution
+// of ln(Lx / Ly). So a sync draws ln Lx evenly from the range in which no discs overlap, within a
+// cell of a partition like that of sizes (Gibbs sampling). Discs that are far apart do not matter
+// within a cell, and the range is the same for a move and its reverse. Sides stay within half and
+// twice their length in the scene, because the sides of a fluid feel no force to a ratio.
+//
 // Only + - * / and sqrt are used. The logarithm of V' / V is computed by a series, and a random
 // number with an exponential distribution decides if a move is accepted. Cost: a halo exchange and
 // a pass over pairs that are near each other, every `time.sync_every` micro-steps.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -35,10 +44,16 @@
 
 namespace carrom {
 
+template <>
+inline constexpr std::array words_of<BarostatAxes>{Word{"together", BarostatAxes::together},
+                                                   Word{"each", BarostatAxes::each}};
+
 namespace {
 
 constexpr int n_moves = 64;
 constexpr double cell_ratio = 1.1; ///< ratio of the lengths at both ends of a cell
+/// Ratio of the sides along x at both ends of a cell
+constexpr double stretch_ratio = 1.1;
 
 /// ln(a / b) for ratios of up to 1.5, by the series of 2 artanh((a - b) / (a + b)), to 2^-53.
 double log_ratio(double a, double b) {
@@ -56,81 +71,120 @@ double mean_squared_diameter(const SceneParameters& scene) {
     return sum / static_cast<double>(scene.n_discs);
 }
 
-/// The largest factor for which a periodic box is still slightly longer than four radii.
-double most_size(const SceneParameters& scene) {
-    return scene.box.shortest() / (4 * (1 + 1e-6) * scene.radius);
+struct Cell {
+    double low = 1, high = 1;
+};
+
+/// The cell that contains `value`, in the partition of this sync into cells from c to c * ratio.
+Cell cell_of(double value, double ratio, std::int64_t n_syncs) {
+    double low = n_syncs % 2 == 0 ? 1 : std::sqrt(ratio);
+    while (value < low) low /= ratio;
+    while (value >= low * ratio) low *= ratio;
+    return {low, low * ratio};
 }
 
-class VolumeMoves final : public SyncEffect, public SizeChange {
+class VolumeMoves final : public SyncEffect, public SizeChange, public ShapeChange {
 public:
     explicit VolumeMoves(const SceneParameters& scene)
-        : pressure_(scene.effects.barostat.pressure), seed_(scene.effects.barostat.seed),
-          n_discs_(static_cast<double>(scene.n_discs)),
+        : barostat_(scene.effects.barostat), n_discs_(static_cast<double>(scene.n_discs)),
           volume_of_scene_(scene.box.area() / mean_squared_diameter(scene)),
-          most_size_(most_size(scene)) {}
+          shortest_(4 * (1 + 1e-6) * scene.radius), box_of_scene_(scene.box), box_(scene.box) {}
 
     void act(const SyncDiscs& /*at*/) override {}
     SizeChange* sizes() override { return this; }
+    ShapeChange* shape() override { return moves_each_axis() ? this : nullptr; }
 
-    std::vector<std::int64_t> kept() const override { return {std::bit_cast<std::int64_t>(size_)}; }
+    std::vector<std::int64_t> kept() const override {
+        std::vector<std::int64_t> numbers = {std::bit_cast<std::int64_t>(size_)};
+        if (moves_each_axis())
+            for (const double side : {box_.x, box_.y})
+                numbers.push_back(std::bit_cast<std::int64_t>(side));
+        return numbers;
+    }
     void go_on(std::span<const std::int64_t> kept) override {
-        if (!kept.empty()) size_ = std::bit_cast<double>(kept.front());
+        if (kept.empty()) return;
+        size_ = std::bit_cast<double>(kept[0]);
+        if (kept.size() == 3)
+            box_ = {std::bit_cast<double>(kept[1]), std::bit_cast<double>(kept[2])};
     }
 
     double size() const override { return size_; }
     double largest_at(std::int64_t n_syncs) const override {
-        return std::min(cell_at(n_syncs).high, most_size_);
+        return std::min(cell_at(n_syncs).high, most_size());
     }
 
     void change(std::int64_t n_syncs, double room) override {
         const Cell cell = cell_at(n_syncs);
-        const double least = volume_at(std::min({room, cell.high, most_size_})),
+        const double least = volume_at(std::min({room, cell.high, most_size()})),
                      most = volume_at(cell.low), range = range_in(cell);
-        DiscRandom random(seed_, Purpose::sync, no_disc, static_cast<std::uint64_t>(n_syncs));
+        DiscRandom random = random_at(n_syncs, no_disc);
         const double before = volume_at(size_);
         double volume = before;
         for (int k = 0; k < n_moves; ++k) {
             const double next = volume + range * (2 * random.uniform() - 1),
                          limit = random_exponential(random);
             if (next < least || next > most) continue;
-            const double cost = pressure_ * (next - volume) - n_discs_ * log_ratio(next, volume);
+            const double cost = barostat_.pressure * (next - volume) -
+                                n_discs_ * log_ratio(next, volume);
             if (limit >= cost) volume = next;
         }
         if (volume != before) size_ = std::sqrt(volume_of_scene_ / volume);
     }
 
-private:
-    /// An id that no disc has, so that the random numbers differ from those of another effect with
-    /// the same seed.
-    static constexpr DiscId no_disc = ~DiscId{0};
+    Box box() const override { return box_; }
+    double largest_stretch() const override { return stretch_ratio; }
 
-    struct Cell {
-        double low = 1, high = cell_ratio; ///< range of sizes
-    };
-
-    double volume_at(double size) const { return volume_of_scene_ / (size * size); }
-
-    /// The cell that contains the present size, in the partition of this sync.
-    Cell cell_at(std::int64_t n_syncs) const {
-        double low = n_syncs % 2 == 0 ? 1 : std::sqrt(cell_ratio);
-        while (size_ < low) low /= cell_ratio;
-        while (size_ >= low * cell_ratio) low *= cell_ratio;
-        return {low, low * cell_ratio};
+    /// 1 / Lx has the weight of an even distribution of ln Lx: an even Lx is accepted with the
+    /// probability `least` / Lx, and is drawn again otherwise.
+    void stretch(std::int64_t n_syncs, const StretchRange& room) override {
+        const double area = box_of_scene_.area(), widest = area / shortest_side(),
+                     unit = box_of_scene_.x;
+        const Cell cell = cell_of(box_.x / unit, stretch_ratio, n_syncs);
+        const double least = std::max({cell.low * unit, box_.x * room.least, shortest_side(),
+                                       barostat_.shortest_side() * unit}),
+                     most = std::min({cell.high * unit, box_.x * room.most, widest,
+                                      barostat_.longest_side() * unit});
+        DiscRandom random = random_at(n_syncs, other_no_disc);
+        double next = 0;
+        do next = least + (most - least) * random.uniform();
+        while (random.uniform() * next > least);
+        if (next >= least && next <= most) box_ = {next, area / next};
     }
+
+private:
+    /// Ids that no disc has, so that the random numbers differ from those of another effect with
+    /// the same seed.
+    static constexpr DiscId no_disc = ~DiscId{0}, other_no_disc = no_disc - 1;
+
+    bool moves_each_axis() const { return barostat_.axes == BarostatAxes::each; }
+    DiscRandom random_at(std::int64_t n_syncs, DiscId id) const {
+        return {barostat_.seed, Purpose::sync, id, static_cast<std::uint64_t>(n_syncs)};
+    }
+    double volume_at(double size) const { return volume_of_scene_ / (size * size); }
+    /// A periodic box must be slightly longer than four radii.
+    double shortest_side() const { return shortest_ * size_; }
+    double most_size() const { return box_.shortest() / shortest_; }
+    Cell cell_at(std::int64_t n_syncs) const { return cell_of(size_, cell_ratio, n_syncs); }
 
     /// The largest change of a move: a few times V / (N (Z - 1)), the typical compression until the
     /// closest pair touches. It is the same throughout the cell, so that a move and its reverse
     /// have the same probability.
     double range_in(const Cell& cell) const {
         const double volume = volume_at(cell.high),
-                     excess = std::max(pressure_ * volume / n_discs_ - 1, 1 / std::sqrt(n_discs_));
+                     excess = std::max(barostat_.pressure * volume / n_discs_ - 1,
+                                       1 / std::sqrt(n_discs_));
         return volume * std::min(0.2, 4 / (n_discs_ * excess));
     }
 
-    double pressure_;
-    std::uint64_t seed_;
-    double n_discs_, volume_of_scene_, most_size_, size_ = 1;
+    Barostat barostat_;
+    double n_discs_, volume_of_scene_;
+    double shortest_; ///< the shortest side of a box for radii of size 1
+    Box box_of_scene_, box_;
+    double size_ = 1;
 };
+
+const Need a_barostat{"without effects.barostat.pressure",
+                      [](const SceneParameters& s) { return has_barostat(s); }};
 
 std::vector<Key> keys_of_barostat() {
     return {
@@ -140,6 +194,12 @@ std::vector<Key> keys_of_barostat() {
             "at syncs. 0: none.",
             [](auto& s) -> auto& { return s.effects.barostat.pressure; })
             .within({0, 1e6}),
+        key("effects.barostat.axes", "1",
+            "together: the box keeps the ratio of its sides. each: in units of the discs each side "
+            "has moves of its own; the box keeps its area, and its sides stay within half and "
+            "twice their length. Take it for crystals: a fluid gives no ratio.",
+            [](auto& s) -> auto& { return s.effects.barostat.axes; })
+            .needs(a_barostat),
         key("effects.barostat.seed", "1", "Seed of the random numbers of the barostat.",
             [](auto& s) -> auto& { return s.effects.barostat.seed; })
             .within({.low = 0})
@@ -195,9 +255,11 @@ EffectDeclaration barostat() {
                 },
             .summary =
                 [](const Effects& e) {
-                    return e.barostat.is_on() ? fmt::format("volume moves at P d^2 / kT = {:g}",
-                                                            e.barostat.pressure)
-                                              : "";
+                    const bool each = e.barostat.axes == BarostatAxes::each;
+                    return e.barostat.is_on()
+                               ? fmt::format("volume moves at P d^2 / kT = {:g}{}",
+                                             e.barostat.pressure, each ? ", each axis alone" : "")
+                               : "";
                 },
             .at_syncs = [](const SceneParameters& s) -> std::unique_ptr<SyncEffect> {
                 if (!s.effects.barostat.is_on()) return nullptr;
