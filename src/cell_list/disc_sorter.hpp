@@ -55,8 +55,8 @@ public:
                     std::size_t n_columns, int n_threads, RawVector<std::uint32_t>& cell_start,
                     SortMemory memory);
 
-    /// Gives each thread the far-moving discs that go to its places. Returns false if there are
-    /// many: the discs are then not nearly sorted, and `rearrange` is faster.
+    /// Assigns each disc that moves far to the thread whose share contains its new place. Returns
+    /// false if there are many: the discs are then not nearly sorted, and `rearrange` is faster.
     bool share_out_travellers();
     /// Moves discs to their new places, in ascending order. Calls placed(i) when place i holds its
     /// disc; from then on the order up to i is no longer needed.
@@ -73,14 +73,14 @@ private:
     struct Sorter {
         std::size_t first_disc = 0, end_disc = 0;
         std::uint32_t first_cell = 0, end_cell = 0;
-        std::vector<LocalIndex> strays; ///< discs of this share in cells of others, ascending
+        std::vector<LocalIndex> strays; ///< discs of this share in other shares' cells, ascending
     };
-    /// The state of a thread while it moves discs to their sorted places, for its share of these.
+    /// The data of a thread while it moves discs to the sorted places of its share.
     struct Carrier {
         DiscStates passed;                ///< ring buffer of the discs overwritten last
         DiscStates travellers;            ///< discs that move far; copied beforehand
-        std::vector<LocalIndex> arrivals; ///< new places of `travellers`, ascending, and an end
-        /// New places of far-moving discs that go to other threads, unsorted
+        std::vector<LocalIndex> arrivals; ///< new places of `travellers`, ascending, then a mark
+        /// New places of the far-moving discs that this thread has found, unsorted
         std::vector<LocalIndex> sent;
     };
 

@@ -121,7 +121,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     record_speeds();
     const std::int64_t last_sync = micro_steps_done_ / scene_.sync_every * scene_.sync_every;
     for (std::size_t i = 0; i < known_.size(); ++i)
-        // The disc's straight flight began at the sync that changed its velocity or returned it.
+        // The straight flight began at the sync that changed the velocity or returned the disc.
         if (were_rewritten() || (before_[i].disc.has_departed() && !known_[i].disc.has_departed()))
             known_[i].free_from = std::max(known_[i].free_from, last_sync);
     take_log(log);
@@ -332,7 +332,7 @@ Finding StateCheck::first_overlap(const LocalView& now) const {
     return first;
 }
 
-/// Gets the time when each disc last collided from the ranks that keep the records, and drops the
+/// Gets the time of each disc's last collision from the ranks that keep the records, and drops the
 /// pairs whose overlap the time-stepped method allows.
 Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
     for (const bool is_first : {true, false}) {

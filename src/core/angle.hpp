@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Angles and directions, computed only with + - * / so that they have the same bits on every
-// machine.
+// Angles and directions, computed only with + - * / and floor, so that they have the same bits on
+// every machine.
 #pragma once
 
 #include "core/random_numbers.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The box in messages: "10", or "10 x 5". Both lengths use the same format of numbers.
+// Formats a box in messages: "10", or "10 x 5". A format of numbers applies to both lengths.
 #pragma once
 
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A disc's stored numbers by name, for files that store each number as a column.
 //
-// Each number of the 64-byte state has one line in the table here. Image counts are not stored in
-// files, so they have no column.
+// Each number of the 64-byte state has one line in the table here, except the id and the image
+// counts. The two flags of a state are encoded in its time.
 #pragma once
 
 #include <array>

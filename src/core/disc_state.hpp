@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disc's stored state: its position at its own time `tau`, and how often it has collided.
+// A disc's stored state: its position at its own time `tau`, its velocity and collision counts.
 //
-// Only collisions and stops of the disc itself, and the sync of all discs, change this state
-// (docs/understanding/method.md, section 2). It fills one cache line, because the engine reads
+// Only collisions and stops of the disc itself, and the sync of all discs, change its motion
+// (docs/understanding/method.md, section 2). A state fills one cache line, because the engine reads
 // states of single discs at random places in memory.
 #pragma once
 
@@ -33,9 +33,9 @@ struct alignas(64) DiscState {
     DiscId id = 0;
     std::uint64_t wall_collisions : 47 = 0;
     std::uint64_t is_departed : 1 = 0; ///< set by depart()
-    std::int64_t image_x : 16 = 0;     ///< image's displacement in box lengths (image.hpp)
+    std::int64_t image_x : 16 = 0;     ///< the image's displacement along x, in boxes (image.hpp)
     std::uint64_t pair_collisions : 47 = 0;
-    /// Whether the disc has collided since the last sync; used only if collisions may lose energy
+    /// Whether the disc has collided since the last sync; set only with effects (contact_guard.hpp)
     std::uint64_t has_collided : 1 = 0;
     std::int64_t image_y : 16 = 0;
 

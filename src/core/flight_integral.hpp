@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time integral of v_a v_b over one disc's flight, in the coordinates of the box.
+// The time integral of v_a v_b (a, b: x or y) over one disc's flight, in the box's coordinates.
 //
 // Between collisions a stored velocity v is constant, and the velocity in the box follows from v by
 // the laws of falling and drag (core/frame.hpp). So the integral since the last sync is a known

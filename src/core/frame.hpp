@@ -20,7 +20,7 @@ struct Frame {
     double vx = 0, vy = 0; ///< the frame's velocity, per micro-step
     double slowing = 1;    ///< rate of the frame's clock relative to the box's
     double clock = 0;      ///< time on the frame's clock
-    Periods periods{};     ///< periods of a periodic box
+    Periods periods{};     ///< periods of the box (image.hpp); 0 without periodic sides
 
     bool keeps_velocities() const {
         return vx == 0 && vy == 0 && slowing == 1 && !periods.are_moving();

@@ -14,7 +14,7 @@ namespace carrom {
 struct FirstPlace {
     DiscId id = 0;
     double x = 0, y = 0;
-    /// Box lengths by which periodic sides have shifted the disc since the start
+    /// Box lengths by which periodic sides have shifted the disc since that start
     double lengths_x = 0, lengths_y = 0;
     double vx = 0, vy = 0; ///< velocity per step, at the start of sampling or of the window
     /// Box lengths by which periodic sides have shifted the disc since the scene's start
@@ -40,7 +40,7 @@ struct StoredSamples {
     bool have_velocities = false;   ///< equal on all ranks
     bool have_images = false;       ///< equal on all ranks; used for images of a trajectory
     /// Discs with consecutive ids. When written, they are the discs of this rank's pieces
-    /// (pieces.hpp); when read, those of its slab (slabs.hpp).
+    /// (pieces.hpp); when read, the discs of its slab (slabs.hpp).
     std::vector<FirstPlace> first_places;
 };
 

@@ -10,9 +10,9 @@ namespace carrom {
 
 namespace {
 
-/// Limits for groups of ranks. With groups, a rank must have less than this share of the own and
-/// halo discs that it would have with whole strips. Its halo must also be smaller by this many
-/// discs, because copying so many takes as long as messages to six more neighbours.
+/// Limits for groups of ranks. Groups are used if a rank then has less than this share of the own
+/// and halo discs of a whole strip, and at least `least_saved` discs fewer, because copying these
+/// takes as long as messages to six more neighbours.
 constexpr double worth_a_group = 0.95, least_saved = 600;
 
 /// The mean over ranks of the area of domain and halo, divided by the area of the domain. Halos end

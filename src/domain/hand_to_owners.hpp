@@ -11,9 +11,9 @@
 namespace carrom {
 
 /// Moves each value to the rank `owner_of(place)`, where `place` is the index of a value that has
-/// not been moved yet. Values are sent in rounds, and arriving values take the places of those that
-/// were sent. Sending all values together would take two or three times the memory of the discs.
-/// **Collective.**
+/// not been moved yet. Values are sent in rounds, and arriving values take the places of values
+/// that were sent. Sending all values together would take two or three times the memory of the
+/// discs. **Collective.**
 template <class Values, class Owner>
 void hand_to_owners(const Communicator& communicator, Values& values, const Owner& owner_of) {
     using T = typename Values::value_type;

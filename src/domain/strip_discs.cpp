@@ -20,7 +20,7 @@ Axis cut_axis(const Box& box, const Periods& periods) {
     return periods.are_moving() ? Axis::y : longer_axis(box);
 }
 
-/// The sizes of the groups of ranks. Halos' depths are converted from disc spacings to lengths.
+/// The sizes of the groups of ranks. The halo's depth is converted from disc spacings to a length.
 std::vector<int> group_sizes(const Box& box, const Periods& periods, int n_ranks,
                              std::uint64_t n_discs, const GroupChoice& choice) {
     if (choice.ranks_across) return groups_of(n_ranks, std::min(*choice.ranks_across, n_ranks));
@@ -128,7 +128,7 @@ void StripDiscs::set_departed_aside() {
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
 
-/// Each disc goes to its owner in the last migration's domains, from which the next one starts.
+/// The owner follows from the domains of the last migration, as the next one starts from them.
 void StripDiscs::take_back(std::span<const ReturningDisc> discs) {
     if (discs.empty()) return;
     forget_halo();
@@ -169,7 +169,7 @@ void StripDiscs::migrate(double time, double farthest, DiscStates* companion) {
     redistributed_domains_ = domains_;
 }
 
-/// Moves the values of discs that leave to other ranks, and appends those of arriving discs.
+/// Moves the values of discs that leave to other ranks, and appends the values of arriving discs.
 template <class Values> void StripDiscs::move_along(const TransferPlan& plan, Values& values) {
     Values arrived;
     transfer(exchange_, plan, values, arrived, n_threads_);
@@ -177,7 +177,7 @@ template <class Values> void StripDiscs::move_along(const TransferPlan& plan, Va
     values.insert(values.end(), arrived.begin(), arrived.end());
 }
 
-/// Plans the migration. Discs far inside the domain when they were sorted are not searched.
+/// Plans the migration. Without periodic sides it skips discs sorted far inside the domain.
 TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     const int rank = communicator_.rank();
     if (periods_.are_any())
@@ -303,7 +303,7 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed,
     });
 }
 
-/// For each partner, lists the own discs among `changed` that are in the partner's halo.
+/// For each partner, lists the own discs in `changed` by their places in the halo plan's list.
 TransferPlan StripDiscs::plan_updates(std::span<const LocalIndex> changed) const {
     TransferPlan plan;
     plan.partners = halo_plan_.partners;

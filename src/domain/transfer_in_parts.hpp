@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Planning and packing with all threads of a rank, for sources in this folder. With one planning
-// thread, all other threads would wait once or twice a window.
+// Plans and packs transfers with all threads of a rank. Only sources in this folder use it. With
+// one planning thread, all other threads would wait once or twice a window.
 #pragma once
 
 #include <algorithm>

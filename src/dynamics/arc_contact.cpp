@@ -19,8 +19,8 @@ namespace {
 /// tangent, which deviates from the circle by at most 5e-15 of the radius.
 constexpr double slip = 1e-7;
 
-/// The time at which a flight leaves the circle of radius `reach`; `never` if it does not enter it,
-/// or if the disc is beyond `wall` and moves away.
+/// The time at which a flight leaves the circle of radius `reach`; `never` if the flight misses
+/// this circle, or if the disc is beyond `wall` and moves away.
 double way_out(const ArcFlight& f, double reach, double wall) {
     const double b = f.dx * f.wx + f.dy * f.wy, a = f.wx * f.wx + f.wy * f.wy;
     if (!(reach > 0) || !(a > 0)) return never;
@@ -35,9 +35,9 @@ double way_out(const ArcFlight& f, double reach, double wall) {
     return b < 0 ? (root - b) / a : (reach - distance) * (reach + distance) / (b + root);
 }
 
-/// The time at which a disc that grows inside the circle of radius `wall` touches it, or
-/// `never`. In lengths divided by 1 - g t, with g = rate / (wall - radius), and with the
-/// clock u = t / (1 - g t), the disc has a constant radius and flies straight
+/// The time at which a disc that grows inside the circle of radius `wall` touches it, or `never`.
+/// In lengths divided by 1 - g t, with g = rate / (wall - radius), and with the clock u = t / (1 -
+/// g t), the disc's centre flies straight inside a circle of constant radius
 /// (growing_contact.hpp).
 double growing_way_out(const ArcFlight& f, const DiscSize& size, double wall) {
     const double room = wall - size.radius;
@@ -48,7 +48,7 @@ double growing_way_out(const ArcFlight& f, const DiscSize& size, double wall) {
     return clock < never ? clock / std::fma(shrinks, clock, 1.0) : never;
 }
 
-/// The times at which the distance has a minimum or maximum, ascending.
+/// The times, ascending, at which the distance from the arc's centre has a minimum or maximum.
 struct Turns {
     std::array<double, 3> times{};
     std::size_t n = 0;

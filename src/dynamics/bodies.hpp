@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bodies of discs: radius, mass, and how fast the surface moves out. They are one part of a
-// dynamics (dynamics.hpp), and are plain data.
+// The bodies of discs: radius, mass, and how fast the radius grows. They are one part of a dynamics
+// (dynamics.hpp), and are plain data.
 //
 //   EqualBodies     one radius, the mass 1
 //   SpeciesBodies   a radius and a mass for each species (species.hpp)
@@ -29,7 +29,7 @@ namespace carrom {
 /// The properties of a disc that a side of the box needs, at a given time.
 struct Body {
     double radius = 0, mass = 1;
-    double outwards = 0; ///< how fast the surface moves out
+    double outwards = 0; ///< speed at which the surface moves outwards
 };
 
 template <class B>
@@ -130,7 +130,7 @@ private:
 class GrowingBodies {
 public:
     static constexpr bool have_species = true, grow = true;
-    /// Growing discs that jam collide faster and faster, so the run is ended before it takes
+    /// Growing discs that jam collide more and more often, so the run is ended before it takes
     /// hours.
     static constexpr double cascade_interval = 0x1p-10;
 

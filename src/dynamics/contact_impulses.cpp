@@ -36,7 +36,7 @@ struct ContactImpulses::Body {
 };
 
 struct ContactImpulses::Contact {
-    std::uint32_t a = 0, b = 0; ///< indices of bodies; b is the last one for all fixed bodies
+    std::uint32_t a = 0, b = 0; ///< indices of bodies; for a fixed body b is the last index
     std::uint32_t part = 0;
     std::int64_t body = -1; ///< LastingContact::body
     double nx = 0, ny = 0;
@@ -147,7 +147,7 @@ std::vector<KeptImpulse> ContactImpulses::kept_of(std::span<const Contact> conta
     return kept;
 }
 
-/// Discs without impulses keep their bits.
+/// Does not change the bits of discs without impulses.
 void ContactImpulses::set_velocities(std::span<const Contact> contacts,
                                      std::span<const Body> bodies,
                                      std::span<HeapDisc> discs) const {
@@ -188,8 +188,8 @@ std::vector<ContactImpulses::Contact> ContactImpulses::lasting_contacts(
         contact.friction = one.friction;
         contact.velocity = one.velocity;
         contact.distance = one.distance;
-        // Discs closer than the rest gap need not move apart, because impulses would increase
-        // without end if the discs have no room.
+        // Discs closer than the rest gap are not pushed apart, because impulses would increase
+        // without limit if the discs had no room.
         contact.approach = std::max(one.gap - rest_gap_, 0.0) / interval_;
         contact.mass = 1 / (1 / species_.of(a.id).mass +
                             (is_pair ? 1 / species_.of(discs[one.b].id).mass : 0));

@@ -48,8 +48,8 @@ struct ContactPair {
                is_same_number(a.friction, b.friction);
     }
 };
-/// A row of `contacts` of a side or of the fixed bodies: numbers for discs of one row of
-/// `discs.species`, counted from 1. NaN: the number of the surface for all discs is used.
+/// A row of `contacts` of a side or of the fixed bodies: coefficients for discs of one row of
+/// `discs.species`, counted from 1. NaN: the surface's coefficient for all discs is used.
 struct SurfaceContact {
     double species = 1;
     double restitution = 1, tangential_restitution = -1, friction = 0;
@@ -123,14 +123,14 @@ struct Inlet {
 
 struct Boundary {
     BoundaryKind kind = BoundaryKind::wall;
-    double restitution = 1; ///< restitution of walls, also of moving ones
+    double restitution = 1; ///< restitution of walls, also of moving and oscillating ones
     /// Temperature of thermal walls: kT, a velocity squared, for masses of 1
     double temperature = 0;
-    double speed = 0; ///< speed of moving walls, along +x or +y
+    double speed = 0; ///< velocity of moving walls, along +x or +y
     // For oscillating walls (oscillation.hpp):
     double amplitude = 0;
     double period = 1;
-    double phase = 0; ///< phase at the scene's start
+    double phase = 0; ///< phase at the scene's start, in radians
     Surface surface{};
     Inlet inlet{}; ///< the inlet of an open side
 
@@ -166,7 +166,7 @@ struct Acceleration {
     friend bool operator==(const Acceleration&, const Acceleration&) = default;
 };
 
-/// Fixed bodies in the box that reflect discs (fixed_bodies.hpp).
+/// A fixed disc. Like all fixed bodies in the box, it reflects discs (fixed_bodies.hpp).
 struct FixedDisc {
     double x = 0, y = 0, radius = 0;
 
@@ -227,12 +227,12 @@ struct FixedBodyList {
     friend bool operator==(const FixedBodyList&, const FixedBodyList&) = default;
 };
 
-/// How discs are kept in motion, at syncs (scene/effects/thermostat.cpp). Rates are per step.
+/// How discs are kept in motion, at syncs (scene/effects/thermostat.cpp). Time unit: see Effects.
 enum class ThermostatKind { none, kicks, andersen, langevin, rescale };
 
 struct Thermostat {
     ThermostatKind kind = ThermostatKind::none;
-    double strength = 0;    ///< xi^2 of kicks
+    double strength = 0;    ///< strength xi^2 of the random kicks
     double rate = 0;        ///< rate at which discs get new velocities, or rate of friction
     double temperature = 0; ///< kT, a velocity squared, for masses of 1
     std::uint64_t seed = 3210;
@@ -246,7 +246,7 @@ struct Thermostat {
     friend bool operator==(const Thermostat&, const Thermostat&) = default;
 };
 
-/// Discs that propel themselves (scene/effects/activity.cpp). Rates are per step.
+/// Discs that propel themselves (scene/effects/activity.cpp). Time unit: see Effects.
 struct Activity {
     double speed = 0; ///< speed of a free disc whose direction does not change
     double force = 0; ///< alternatively the same force for all discs, whatever their mass
@@ -278,7 +278,7 @@ struct Swaps {
 };
 
 /// Numbers of effects that act at syncs only. The file of such an effect declares its keys
-/// (`own_key` in scene/key_members.hpp) and reads the numbers by their names; no other code knows
+/// (`own_key` in scene/key_members.hpp) and reads the numbers by their names; no other code uses
 /// them.
 class OwnNumbers {
 public:
@@ -337,7 +337,7 @@ struct Effects {
                         growth, shear, lasting_speed, thermostat, activity, swap, barostat, own,
                         field);
     }
-    /// The acceleration of discs in free flight by all fields together, without drag.
+    /// The uniform acceleration of discs in free flight, without drag.
     Acceleration acceleration() const { return gravity; }
     /// Whether velocities change only in collisions and at syncs.
     bool are_flights_free() const { return !acceleration().is_on() && drag == 0; }
@@ -361,7 +361,7 @@ struct Effects {
     }
     /// The factor by which radii have grown from the scene's start to `time`.
     double size_at(double time) const { return 1 + growth * time; }
-    /// Restarts growth: radii that have grown by the factor `size` become those at the start.
+    /// Restarts growth: radii that have grown by the factor `size` become the radii at the start.
     void begin_at(double size) { growth /= size; }
     bool are_any() const {
         return std::apply([](const auto&... all) { return (is_feature_on(all) || ...); },
@@ -370,7 +370,7 @@ struct Effects {
     friend bool operator==(const Effects&, const Effects&) = default;
 };
 
-/// The numbers that discs have besides their states under these effects.
+/// The side columns (core/side_columns.hpp) that a run with these effects has.
 SideColumnSet side_columns_of(const Effects& effects);
 
 /// The part of a summary line that describes the species; empty without species. `summary_of`

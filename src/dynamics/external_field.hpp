@@ -99,7 +99,7 @@ enum class FieldKind { none, trap, sine, grid };
 struct ExternalField {
     FieldKind kind = FieldKind::none;
     double stiffness_x = 0, stiffness_y = 0; ///< stiffness of a trap: force per length
-    /// Centre of a trap or sine; by default the middle of the box
+    /// Centre of a trap; by default the middle of the box
     std::optional<double> centre_x, centre_y;
     double amplitude = 0; ///< energy of a sine, or factor of the values on a grid
     Axis axis = Axis::x;  ///< the axis along which a sine changes

@@ -16,12 +16,12 @@ namespace {
 constexpr std::uint32_t n_images = 9;
 
 /// The least slope at which a disc leaves the inner face of an arc, because a disc that flies along
-/// the face collides without end. The change of energy is below the rounding of 1000 collisions.
+/// the face collides without end. The relative change of energy is at most 1e-12.
 constexpr double least_slope = 1e-6;
 
 /// The first time at which a distance with the initial `rate` and a constant acceleration `pull`
-/// falls to 0. If the distance is not positive and the disc is on this side of the body, it is the
-/// time at which the disc turns back; on the other side the distance must become positive first.
+/// falls to 0. If the distance is not positive and the disc is on this side of the body, the result
+/// is when the disc turns back; on the other side the distance must become positive first.
 double fall_delay(double distance, double rate, double pull, bool is_on_side) {
     if (rate < 0) {
         if (!(distance > 0)) return is_on_side ? 0 : never;
@@ -106,7 +106,7 @@ FixedBodies::Cells FixedBodies::cells_of(const Extent& extent) const {
             rows_.cell_of(extent.y_low - margin_), rows_.cell_of(extent.y_high + margin_)};
 }
 
-/// The cells whose bodies a disc of that radius may touch while its centre is in `extent`. A cell
+/// The cells whose bodies a disc of this radius may touch while its centre is in `extent`. A cell
 /// contains the bodies that discs of the largest radius touch there, and discs may have grown.
 FixedBodies::Cells FixedBodies::cells_near(const Extent& extent, double radius) const {
     const double more = std::max(radius - largest_radius_, 0.0);
@@ -330,7 +330,7 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     const double slides = from_body.is_hollow ? -at.slides : at.slides;
     const auto& [restitution, rubbing] = surface_.of(disc.id);
     const double normal = nx * (disc.vx + pull_[0] * time) + ny * (disc.vy + pull_[1] * time);
-    // A disc that grows bounces as from a body that moves at the speed of its surface.
+    // A disc that grows bounces as from a body that moves at the speed of the disc's surface.
     const double closing = std::fabs(outwards - normal);
     const bool is_guarded = guard_.holds_at_wall(since, closing, turning.radius);
     double away = outwards + (is_guarded ? 1 : restitution) * closing;

@@ -169,8 +169,8 @@ void LastingContactFinder::begin_at(const SurfaceTable& surface, std::uint32_t i
     contact.friction = surface.of(disc.id).rubbing.friction();
 }
 
-/// Thermal and moving walls have no lasting contacts. In a box of another shape than a rectangle
-/// discs do not reach the sides.
+/// Only walls at rest that are not thermal have lasting contacts. In a box of another shape than a
+/// rectangle discs do not reach the sides.
 void LastingContactFinder::add_walls(Search& search) const {
     if (effects_.fixed_bodies.has_shape()) return;
     for (std::int64_t side = 0; side < 4; ++side) {
@@ -230,7 +230,7 @@ void LastingContactFinder::add_fixed_bodies(Search& search) const {
     for (const Arc& arc : all_arcs(fixed_bodies, box_)) add_arc(search, arc, contact);
 }
 
-/// The tangent of a contact turns counterclockwise around the arc's centre only for discs inside.
+/// The tangent of a contact points counterclockwise along the arc only for discs inside it.
 void LastingContactFinder::add_arc(Search& search, const Arc& arc, LastingContact& contact) const {
     ++contact.body;
     const double far = arc.radius + search.largest_radius + search.widest_gap,

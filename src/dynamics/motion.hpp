@@ -99,7 +99,7 @@ public:
     // Pairs.
 
     /// The contact of two discs in free flight (pair_contact.hpp). Discs that overlap by more than
-    /// `deepest_overlap` have none.
+    /// `deepest_overlap` have no contact.
     [[gnu::always_inline]] CARROM_DEVICE PairContact<Real> contact(const DiscState& p,
                                                                    const DiscState& q,
                                                                    double deepest_overlap) const {

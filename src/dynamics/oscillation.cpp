@@ -20,7 +20,7 @@ constexpr double margin = 1.0 / 16;
 /// A time in periods that is much longer than any time between syncs.
 constexpr double latest = 0x1p40;
 
-/// The turns from -1/4 to 1/4 with this sine, by bisection.
+/// The angle, in turns from -1/4 to 1/4, that has this sine, by bisection.
 double turns_of_sine(double sine) {
     double low = -0.25, high = 0.25;
     for (;;) {
@@ -46,7 +46,7 @@ Oscillation::Oscillation(const Boundary& side, double sign, double acceleration,
     rate_ = two_pi / period_;
     phase_ = whole_turns_off(side.phase / two_pi);
     turns_ = phase_;
-    // At this sine the wall's acceleration equals that of falling discs.
+    // At this sine the wall and falling discs have the same acceleration.
     const double sine = -acceleration / (amplitude_ * rate_ * rate_);
     const double bend = std::fabs(sine) < 1 ? turns_of_sine(sine) : 0.25;
     first_bend_ = whole_turns_off(bend);

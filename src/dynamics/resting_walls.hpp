@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elastic walls at rest, for one coordinate of a disc's centre. `Real` is double, or float for the
-// accuracy study.
+// Walls at rest, for one coordinate of a disc's centre. `Real` is double, or float for the accuracy
+// study.
 //
-// In the time-stepped method the position of the disc at the end of micro-step m decides whether it
-// bounces off the wall ahead. A slow disc that ends within the band at a wall bounces at t = 1
+// In the time-stepped method the position of the disc at the end of micro-step m determines whether
+// it bounces off the wall ahead. A slow disc that ends within the band at a wall bounces at t = 1
 // without a contact, because rounding might otherwise keep it there for ever.
 #pragma once
 

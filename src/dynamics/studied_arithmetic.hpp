@@ -82,8 +82,8 @@ public:
         return naive_contact_delay(met.ex, met.ey, met.wx, met.wy, sigma,
                                    formula_ == ContactFormula::naive_contracted);
     }
-    /// Whether the centres of the discs, advanced to that time in double precision, are at most
-    /// `farthest_` apart.
+    /// Whether the centres of the discs, advanced to the contact's time in double precision, are at
+    /// most `farthest_` apart.
     CARROM_DEVICE bool counts(const DiscState& p, const DiscState& q,
                               const PairContact<Real>& found) const {
         const double time = static_cast<double>(found.base) + static_cast<double>(found.delay);

@@ -25,7 +25,7 @@ namespace carrom {
 
 struct Acceleration;
 
-/// The motion of a frame from rest along one axis, due to the part that changes.
+/// The motion of a frame from rest along one axis, due to the changing part of the acceleration.
 struct Swayed {
     double way = 0, speed = 0, acceleration = 0;
 };

@@ -2,8 +2,8 @@
 // An effect that acts at syncs. Between syncs discs fly and collide as without it.
 //
 // At a sync all states are at one time and in the box's own coordinates. The effect on a disc may
-// depend on that disc's state, on exact sums over all discs, and on random numbers, which are
-// functions of the seed, the disc and the count of syncs. So any number of ranks and threads gives
+// depend on that disc's state, on discs near it, on exact sums over all discs, and on random
+// numbers (functions of seed, disc and count of syncs). So any number of ranks and threads gives
 // the same bits, and a restart needs only the count and the values that an effect keeps (`kept`).
 //
 // The engine calls each effect once a sync, never for a pair. Scenes without such an effect have
@@ -72,11 +72,11 @@ struct SyncDiscs {
     std::function<double(double)> largest_over_ranks = {};
     /// Returns the bytes of all ranks, in the order of ranks, to every rank. **Collective.**
     std::function<std::vector<std::byte>(std::span<const std::byte>)> gather_over_ranks = {};
-    /// Records the impulse of a side of the box, per micro-step. One rank calls this for all ranks.
-    /// It is empty unless walls are measured.
+    /// Records the impulse of a side or a fixed body, per micro-step. One rank calls this for all
+    /// ranks. It is empty unless walls are measured.
     std::function<void(const WallImpulse&)> record_wall = {};
     /// Records the impulse between two discs, per micro-step. One rank calls this for all ranks. It
-    /// is empty unless stress is measured or pairs are followed.
+    /// is empty unless stress or pairs are measured.
     std::function<void(const PairImpulse&)> record_pair = {};
 
     /// Adds the terms of all discs in the box to `sums`, which must be 0. `term(i, parts)` adds the
@@ -112,8 +112,8 @@ public:
     virtual void change(std::int64_t n_syncs, double room) = 0;
 };
 
-/// A disc that has come in through an open side during the interval before a sync. Its place of
-/// entry is where discs depart.
+/// A disc that has come in through an open side during the interval before a sync. It enters at the
+/// line where discs depart.
 struct Arrival {
     std::size_t side = 0;
     DiscId first = 0, end = 0; ///< range of ids that the disc may have
@@ -123,7 +123,7 @@ struct Arrival {
     double inwards = 0, along = 0;                  ///< velocity of arrival, for a mass of 1
 };
 
-/// The numbers of arrivals that came in, and of those that did not.
+/// The numbers of arrivals that came in, and of arrivals that were not let in.
 struct ArrivalCounts {
     std::uint64_t in = 0;            ///< discs that came in
     std::uint64_t without_place = 0; ///< not let in, because a disc or a fixed body is there

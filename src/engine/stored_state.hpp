@@ -15,7 +15,7 @@ namespace carrom {
 struct StoredState {
     DiscStates discs;
     std::int64_t micro_steps_done = 0;
-    SideColumns columns{}; ///< numbers in the order of the discs; numbers left out are 0
+    SideColumns columns{}; ///< values in the order of the discs; columns left out are 0
     /// Values that effects keep from one sync to the next (SyncEffect::kept); equal on all ranks.
     std::vector<std::int64_t> kept_by_effects{};
 };

@@ -10,7 +10,7 @@ namespace carrom {
 /// Settings that are not given are chosen during the run.
 struct Tuning {
     int threads = 1;
-    /// A rank with fewer discs for each thread uses fewer threads
+    /// Fewest discs for which a further thread saves time
     std::uint64_t discs_per_thread = 2000;
     std::optional<double>
         window; ///< micro-steps per window; below 1 a micro-step is divided into parts
@@ -22,7 +22,7 @@ struct Tuning {
     std::int64_t rebalance_every = 1;
     /// Tolerated ratio of the largest to the mean load; 0 changes the cuts every time
     double rebalance_above = 1.05;
-    bool ends_jams = true; ///< false for repeated steps, which are known to end without a jam
+    bool ends_jams = true; ///< whether a jam ends the run; not for repeated steps, which cannot jam
 };
 
 } // namespace carrom

@@ -25,8 +25,8 @@ template <class Claim> int first_beyond(int first, int end, const Claim& is_beyo
     return end;
 }
 
-/// Cuts a rectangle across the longer side of the part that holds discs, so that `share` of the
-/// work is below the cut. Returns false if there is no work, or if one cell holds all of it.
+/// Cuts a rectangle across the longer side of the part that contains discs, so that about `share`
+/// of the work is below the cut. Returns false if there is no work, or if all of it is in one cell.
 bool cut_longer(const CellBlock& part, double share, const CellSums& sums, bool& by_column,
                 int& cut) {
     const double wanted = share * static_cast<double>(sums.in(part));
@@ -126,8 +126,8 @@ void BlockCuts::cut_by_work(const CellBlock& cells, const CutNeeds& needs, const
             least = most / mean;
             shares_ = shares;
         }
-        // The square root damps the change, because halos change with the cuts, so shares that
-        // follow the full ratio would overshoot each time.
+        // The square root damps the change. With the full ratio, shares would overshoot each
+        // time, because the halos change with the cuts, too.
         for (std::size_t k = 0; k < work_.size(); ++k)
             shares[numbers_[k]] *= std::sqrt(std::clamp(mean / std::max(work_[k], 1.0), 0.5, 2.0));
     }

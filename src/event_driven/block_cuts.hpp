@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the cells of a strip are cut into blocks. If there is one thread, blocks have equal areas. If
-// there are several, blocks have about equal work, because all threads wait for the block with most
-// work. The cuts affect the run's time, not its bits.
+// How the cells of a rank are cut into blocks: into equal areas if the rank has one thread and
+// discs are spread evenly, otherwise into about equal work, because all threads wait for the block
+// with most work. The cuts affect the run's time, not its bits.
 //
 // The cells are halved repeatedly across their longer side, so that blocks are as square as
 // possible, because a square has the smallest halo. The work of a block includes its halo. Cost:
@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-/// A rectangle of cells of a grid's frame: columns and rows [first, end).
+/// A rectangle of cells of a grid: columns and rows [first, end).
 struct CellBlock {
     int first_column = 0, end_column = 0;
     int first_row = 0, end_row = 0;
@@ -44,7 +44,7 @@ struct CellWork {
     }
 };
 
-/// Sums the work of the cells in any rectangle by four reads.
+/// Computes the work of all cells in any rectangle from four numbers of a table.
 class CellSums {
 public:
     /// `discs_before(column, row)` is the number of discs of a column before `row`, plus any number
@@ -54,7 +54,7 @@ public:
     void fill(const CellBlock& cells, int n_threads, const CellWork& work,
               const DiscsBefore& discs_before);
     std::uint64_t in(const CellBlock& part) const;
-    /// The smallest rectangle that holds all work of `part`.
+    /// The smallest rectangle that contains all work of `part`.
     CellBlock occupied(CellBlock part) const;
 
 private:
@@ -72,7 +72,7 @@ private:
 struct CutNeeds {
     std::size_t n_blocks = 1;
     int halo = 1;    ///< width of a block's halo, in cells
-    CellBlock frame; ///< all cells that hold discs, also those of other ranks and images
+    CellBlock frame; ///< all cells of the grid, also those for other ranks' discs and images
 };
 
 class BlockCuts {
@@ -87,7 +87,7 @@ public:
     const std::vector<CellBlock>& blocks() const { return blocks_; }
     /// The expected work of each block with its halo, in any unit. Empty if cells were cut evenly.
     const std::vector<double>& work() const { return work_; }
-    /// The block that holds a cell of the strip.
+    /// The number of the block that contains this cell.
     std::size_t block_of(int column, int row) const;
 
 private:

@@ -64,8 +64,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::list_levels_of_all()
     lay_levels(ground.extent, periods(), ground.n_own);
 }
 
-/// Gives slots to the discs in `in_levels`. Cells fill `extent`; cells of a whole box repeat with
-/// the periods `across`. Discs with indices below `n_at_home` keep their stored image.
+/// Gives slots to the discs in `in_levels`. Cells fill `extent`. In a run of the whole box `across`
+/// has the periods of the box. Discs with indices below `n_at_home` keep their stored image.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::lay_levels(const Extent& extent, const Periods& across,
                                              std::size_t n_at_home) {

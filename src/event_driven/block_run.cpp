@@ -174,7 +174,7 @@ void BlockRun<Dynamics>::Scratch::predict_image(std::uint32_t a, std::uint32_t b
     predict_shifted(a, b, &image);
 }
 
-/// Fixed bodies behind the first side that the disc meets are not searched.
+/// Predicts bounces at sides, and at the first fixed body that the disc meets before any side.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::uint32_t slot) {
     const double begin = ground.window.begin, end = ground.window.end;
     const DiscState& disc = discs[slot];
@@ -195,9 +195,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::u
     predict_fixed_body(slot, until);
 }
 
-/// Predicts the first fixed body that the disc meets before `until`, the time at which it meets a
-/// side. At the time of its last collision the fixed body that it has just left does not count, for
-/// the same reason as a pair that has just collided.
+/// Predicts the collision with the first fixed body before `until`, when the disc meets a side or
+/// the window ends. A fixed body that the disc has just left does not count at the time of that
+/// collision, because of rounding errors (see predict_shifted).
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_fixed_body(std::uint32_t slot,
                                                      [[maybe_unused]] double until) {
@@ -256,7 +256,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
     if (is_corner && !has_left &&
         (Dynamics::has_mirror_walls ||
          discs[event.p].vy ==
-             vy_before)) { // y follows immediately, because the order of sides has no meaning
+             vy_before)) { // the other side follows at once: sides have no order
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;
@@ -339,7 +339,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::u
                                      ground.window.speed_bound * (1 + 1e-6)});
 }
 
-/// Adds an event to the history of one of its discs.
+/// Updates the history and the flight of one disc of an event. Own discs are listed as hit.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner,
                                        const Event& event) {

@@ -29,8 +29,8 @@
 // collided with a disc from beyond the ring.
 //
 // The run uses copies of the discs in the order of cells, 64 bytes and four floats a disc, so that
-// the copies stay in the L2 cache. Most pairs are rejected in single precision, many in parallel.
-// The predicate in double precision decides about the rest.
+// the copies stay in the L2 cache. Most pairs are rejected in single precision, many at a time. A
+// test in double precision decides about the rest.
 #pragma once
 
 #include <cstdint>
@@ -71,10 +71,10 @@ struct BlockWindow {
 /// cells must cover this distance.
 double block_reach(const BlockWindow& window, double diameter, const Box& box);
 
-/// Empty sums in the engine's unit, and the time of flights before the last sync.
+/// Empty sums from which sums of blocks start, and the time of flights before the last sync.
 struct BlockSums {
-    StressSums no_stress{0x1p900}; ///< sums of zero in the engine's unit
-    LossSums no_losses{0x1p900};   ///< sums of zero in the engine's unit
+    StressSums no_stress{0x1p900}; ///< empty sums that round terms to the engine's unit
+    LossSums no_losses{0x1p900};   ///< empty sums that round terms to the engine's unit
     double flown_before = 0; ///< time of flights before the last sync that the stress still lacks
 };
 
@@ -84,7 +84,7 @@ struct BlockNotes {
     bool pairs_in_log = true;   ///< collisions of pairs go to BlockOutcome::log, too
     bool pairs = false;         ///< collisions of pairs go to BlockOutcome::pairs
     std::int64_t last_sync = 0; ///< micro-step of the last sync, for BlockOutcome::pairs
-    double velocity_unit = 1;   ///< unit of the velocities in BlockOutcome::pairs
+    double velocity_unit = 1;   ///< factor from stored velocities to those in BlockOutcome::pairs
 
     friend bool operator==(const BlockNotes&, const BlockNotes&) = default;
 };
@@ -94,8 +94,8 @@ struct BlockGround {
     std::span<const DiscState> discs; ///< the rank's own discs, then the halo
     std::size_t n_own = 0;
     const SideColumns* columns = nullptr; ///< rows in the order of `discs`
-    const CellGrid* grid = nullptr;       ///< holds the discs at the window's start
-    CellBlock own_cells; ///< own discs that are outside by rounding count in the nearest cell
+    const CellGrid* grid = nullptr;       ///< discs sorted by positions at the window's start
+    CellBlock own_cells; ///< cells of own discs, which rounding may put into a cell beside them
     BlockWindow window;
     std::span<const double> stops{}; ///< times inside the window at which parts of it end
     /// Whether there is one run of the whole box. Then no histories are compared, and no grid is
@@ -108,8 +108,8 @@ struct BlockGround {
     BlockNotes notes{};
 };
 
-/// The event history of a disc of a block's ring. It is 0 if the disc had no event, otherwise a
-/// hash of times, partners and results, whose last byte is a SpeedClass.
+/// The event history of a disc in a block's ring (within one reach of it): 0 without any event,
+/// otherwise a hash of times, partners and results, whose last byte is a SpeedClass.
 struct HaloRecord {
     LocalIndex index = 0;
     std::uint64_t history = 0;
@@ -125,7 +125,7 @@ inline SpeedClass speed_class_of(std::uint64_t history) {
     return static_cast<SpeedClass>(history & largest_speed_class);
 }
 
-/// A collision for the log. The time counts from the last sync, and the impulse is per micro-step.
+/// A collision for the log; `time` is since the last sync, `impulse` per unit mass and micro-step.
 struct LoggedEvent {
     double time = 0;
     std::uint32_t generation = 0;
@@ -181,26 +181,26 @@ struct BlockPart {
     std::uint64_t n_simultaneous = 0; ///< see RollbackCounts
     StressSums stress{1};             ///< sums over the events
     LossSums losses{1};               ///< sums over the events
-    double work = 0;                  ///< work of moving images in the events
+    double work = 0;                  ///< work that moving images do on discs in the events
 };
 
 /// The results of a run. Lists begin with the entries of the first part.
 struct BlockOutcome {
     std::vector<BlockPart> parts; ///< one part for each stop, and one for the window's end
-    std::vector<LocalIndex> hit;  ///< own discs that have collided, once for each part
+    std::vector<LocalIndex> hit;  ///< own discs that have collided; parts may have discs in common
     RawVector<NewState> states;   ///< the new states of the discs in `hit`, in the same order
     SideColumns columns;          ///< side columns of the discs in `hit`, in the same order
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     NotedEvents<PairEvent> pairs;
     std::uint64_t n_events = 0;  ///< number of events whose first disc is an own disc
-    std::uint64_t n_carried = 0; ///< number of all events of the run, those of the halo included
+    std::uint64_t n_carried = 0; ///< number of all events of the run, including events of the halo
     std::uint64_t n_seen = 0;    ///< number of discs of the run, with its halo
     double too_fast = 0;         ///< largest speed of discs that were too fast for the window, or 0
     /// 0, or at least the speed of any disc from beyond the ring that collided with an own disc
     double far_partner = 0;
     double largest_speed_at_end = 0;
-    double largest_speed = 0; ///< a bound of the speed of own discs at any time of the run
+    double largest_speed = 0; ///< upper bound of the speeds of own discs during the run
     bool is_cascade = false;  ///< whether the run ended in a collision cascade
     DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if the disc meets a wall
     double cascade_time = 0;
@@ -214,7 +214,7 @@ struct BlockOutcome {
     }
 };
 
-/// Scratch space of one thread; it keeps its memory from block to block.
+/// Runs blocks on one thread. It keeps its memory from block to block.
 template <class Dynamics> class BlockRun {
 public:
     explicit BlockRun(const Dynamics& dynamics);
@@ -227,12 +227,12 @@ public:
     void run(const BlockGround& ground, const CellBlock& block, int halo,
              std::span<std::uint64_t> histories, BlockOutcome& outcome);
 
-    /// Runs all discs of the box, which must all be on this rank. Each disc occurs once, and its
-    /// images are ghosts. The result is always right, because no disc is missing.
+    /// Runs all discs of the box, which must be own discs or in the halo. Each disc occurs once,
+    /// and its images are ghosts (box_layout.hpp). No other block can change the result.
     void run_whole(const BlockGround& ground, const CellBlock& block,
                    std::span<std::uint64_t> histories, BlockOutcome& outcome);
 
-    /// Uses these dynamics from now on, because walls have moved since the last sync.
+    /// Replaces the dynamics after a sync, because walls and moving images depend on the time.
     void change_dynamics(const Dynamics& dynamics);
 
     std::size_t bytes() const;

@@ -60,11 +60,11 @@ struct CellsOfBox {
 struct LevelCells {
     BoxCells cells;
     double smallest_radius = 0, largest_radius = 0; ///< radii at the window's end
-    std::size_t first_start = 0;                    ///< index in `cell_starts`
+    std::size_t first_start = 0;                    ///< index in `cell_starts` of the first cell
     std::uint32_t end_slot = 0;
     float columns_per_unit = 1, rows_per_unit = 1; ///< cells per unit of the lanes
     float left = 0, bottom = 0;                    ///< corner of the cells, in units of the lanes
-    float farthest = 0; ///< half width of a flight box, without the searching disc's radius
+    float farthest = 0; ///< how far a flight box extends beyond the disc during its flight
 
     int n_columns() const { return cells.n_columns + 2 * cells.n_beside; }
     int n_rows() const { return cells.n_rows + 2 * cells.n_above; }
@@ -120,7 +120,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void check_partner(std::uint32_t slot);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
     void hold_to_schedule(std::uint32_t slot, double time);
-    /// The flight of a disc that has just collided.
+    /// The flight of a disc from its last collision on.
     Flight flight_of(std::uint32_t slot) const {
         const auto now = static_cast<float>((discs[slot].tau - ground.window.begin) *
                                             windows_per_time);
@@ -281,7 +281,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
                         last_row - cells.first_row);
     }
 
-    /// Whether the disc is in the ring (own discs included), so that the block reports its history.
+    /// Whether the disc is in a cell of `ring`, so that the block reports its history.
     bool is_compared(std::uint32_t slot) const {
         if (has_sizes) return is_of_ring[slot] != 0;
         const auto behind = std::upper_bound(cell_starts.begin(), cell_starts.end(), slot);
@@ -339,10 +339,10 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     BlockGround ground;
     bool is_whole = false; ///< true if every disc occurs once
     CellBlock cells;       ///< own cells and the halo
-    CellBlock ring;        ///< own cells and those within one reach of them
+    CellBlock ring;        ///< own cells and all cells within one reach of them
     CellBlock firsts; ///< cells of the first discs of pairs, counted from the corner of `cells`
     int n_reach_columns = 1, n_reach_rows = 1;
-    Axis axis = Axis::x; ///< the grid's axis; lanes, corners and walls use it as x, in cells
+    Axis axis = Axis::x; ///< the axis that is x for cells, lanes, corners and bounds here
     double x_corner = 0, y_corner = 0, cell_width = 1, cells_per_length = 1, cells_per_speed = 1,
            windows_per_time = 1;
     float column_limit = 0, row_limit = 0;
@@ -353,15 +353,15 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0,
           y_inner_high = 0;    ///< a disc between these bounds, in cells, is near no wall
     std::size_t cell_rows = 0; ///< number of entries of `cell_starts` for each column
-    std::vector<std::uint32_t> cell_starts; ///< by column and row, plus an end for each column
-    std::vector<LocalIndex> indices;        ///< by slot, like all arrays below
+    std::vector<std::uint32_t> cell_starts; ///< first slot of each cell, and each column's end
+    std::vector<LocalIndex> indices;        ///< for each slot, the disc's index in `ground.discs`
     DiscStates discs;
     SideColumns columns = side_columns_of(dynamics);
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;
     std::vector<std::uint8_t> is_hit;     ///< whether an own disc has collided in this part
     std::vector<std::uint32_t> hit_slots; ///< slots of these discs
-    BoxLayout layout;                     ///< only for a run of the whole box
+    BoxLayout layout;                     ///< for runs of the whole box and for levels of sizes
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
     EventQueue queue;
@@ -385,13 +385,13 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     double classes_per_squared = 1; ///< number of speed classes for each unit of the squared speed
     // Members for discs of several sizes.
     std::vector<LevelCells> levels;                 ///< smallest discs first
-    std::vector<std::vector<LocalIndex>> in_levels; ///< the listed discs of each level
-    /// For each slot of a level, the disc's index in its list
+    std::vector<std::vector<LocalIndex>> in_levels; ///< indices of the discs of each level
+    /// For each slot of a level, the disc's position in the level's list in `in_levels`
     std::vector<std::vector<std::uint32_t>> orders;
     std::vector<float> radii; ///< radius of the disc in each slot, in cells
     /// Margins that are added to sums of radii, by the levels of both discs
     std::vector<float> margins;
-    /// Whether the disc in each slot is in the ring, so that the block reports its history
+    /// Whether each slot's disc is within one reach of the own cells, so its history is reported
     std::vector<std::uint8_t> is_of_ring;
 };
 

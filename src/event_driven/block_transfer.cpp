@@ -151,7 +151,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
     const double reach = block_reach(window, diameter, dynamics.box()) * cells_per_length;
     // Separations carry an error of 2^-21 of the block's size. The rounding of the filter's other
     // terms acts like a diameter that is longer by 2^-20 d^2 / diameter, where d is the largest
-    // distance of a disc that is tried.
+    // distance at which the filter tests a pair.
     const double farthest_tried = 3 * reach + 3;
     const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent +
                             0x1p-20 * farthest_tried * farthest_tried / sigma;
@@ -277,7 +277,7 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
 }
 
-/// Reports own discs in the order of cells, which is also the order of the rank's discs.
+/// Reports own and ring discs by slot; for equal discs this is also the order of the rank's discs.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::report_by_cells(std::span<std::uint64_t> histories,
                                                   double& end_squared) {

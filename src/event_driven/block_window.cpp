@@ -77,7 +77,7 @@ double share_waited(const BlockNeeds& needs, const BlockChoice& choice) {
     return 1 + (unforeseen + repeated_run * needs.rounds) / blocks_per_thread;
 }
 
-/// Chooses blocks of `own_discs` discs each, for the density in which most discs are.
+/// Chooses blocks of `own_discs` own discs each, for the mean density around discs.
 void take_blocks_of(double own_discs, const BlockNeeds& needs, BlockChoice& choice) {
     const double area = own_discs * spacing_of(needs) * spacing_of(needs);
     choice.own_discs = own_discs;

@@ -31,7 +31,7 @@ struct BlockNeeds {
     double crowding = 1;
     double n_threads = 0; ///< threads of all ranks together; 0 if each rank has one thread
     double rounds = 0;    ///< recent mean number of rounds of repeated block runs in a window
-    double equivalent_radius = 0; ///< radius of equal discs with as many neighbours on average
+    double equivalent_radius = 0; ///< radius of equal discs with as many possible partners
 };
 
 struct BlockChoice {
@@ -51,7 +51,7 @@ BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
 /// blocks get a larger halo. If that is not enough, windows become shorter.
 class Caution {
 public:
-    /// Statistics of a window; times are relative to its first block runs.
+    /// Statistics of a window; times are relative to the time of its first block runs.
     struct Passed {
         double hits = 0;             ///< collisions per disc
         double repeated = 0;         ///< number of repeated block runs, over the number of blocks

@@ -10,8 +10,8 @@ namespace carrom {
 
 namespace {
 
-/// Blocks are cut by work if the fullest block has this many times the mean number of discs. Below
-/// this ratio the cuts cost more than they save, and small blocks differ as much by chance.
+/// On one thread, blocks are cut by work if the fullest block has this many times the mean number
+/// of discs. Below this ratio cuts cost more than they save, and small blocks differ by chance.
 constexpr double uneven = 1.5;
 /// If discs are clustered, there are at most this many times as many cells as in a homogeneous gas,
 /// because empty cells take memory too.

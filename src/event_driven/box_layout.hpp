@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole box cut into cells, for a run that has all discs of the box. Each disc has one slot.
-// Cells beyond periodic sides hold ghosts. A ghost is a slot for an image of a disc. The filter
+// The cells of a run of the whole box, and of discs that lie in levels by size. Each disc has one
+// slot. Cells beyond periodic sides contain ghosts: slots for images of discs. The filter
 // (flight_filter.hpp) tests the ghost's own flight, but its state is the disc's state.
 #pragma once
 
@@ -16,7 +16,7 @@
 namespace carrom {
 
 /// The least width of cells in a box of this height and length. Cells are about two mean distances
-/// of discs wide, so that three rows of them hold as many discs as a vector has lanes.
+/// of discs wide, so that three cells of a column have about as many discs as a vector has lanes.
 double least_cell_width(double reach, double height, double length, std::uint64_t n_discs);
 
 /// Cells of the box. Between periodic sides they fill it exactly.
@@ -46,8 +46,8 @@ public:
     static constexpr std::uint32_t none = 0xffffffff;
 
     /// Gives slots to all discs of the box and to their ghosts, by the column and row in which they
-    /// are at `time`. `discs` begins with the rank's own discs, which lie in the box. Then come
-    /// copies of other ranks' discs; a disc may have several copies, one for each image.
+    /// are at `time`. `discs` begins with the rank's own discs, which lie in the box. It
+    /// ends with copies of other ranks' discs; a disc may have several copies, one for each image.
     void lay(std::span<const DiscState> discs, std::size_t n_own, const BoxCells& cells,
              const Periods& periods, double time);
 

@@ -49,8 +49,8 @@ struct CellRows {
 /// extrapolated to the window's start, and must be readable up to `filter_padding` entries beyond
 /// the last slot.
 ///
-/// `touching` is the distance that counts as a touch. For discs of one size it is the square of
-/// this distance. For several sizes this distance is the sum of the two radii and a margin, and
+/// Discs touch below a certain distance. For discs of one size, `touching` is the square of this
+/// distance. For several sizes the distance is the sum of the two radii and a margin, and
 /// `touching` is the flight's radius plus the margin; in `column` it is the margin alone.
 template <class SomeLanes> struct FlightFilters {
     /// Writes the slots of `runs` whose flights might touch `flight`, except the slot of `flight`

@@ -62,7 +62,7 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::largest_of_all() c
 }
 
 /// The speed bound of the next window. In a frame that falls, speeds grow until the window ends,
-/// also those of discs at rest on a floor. **Collective.**
+/// even for discs at rest on a floor. **Collective.**
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
     const double gained = dynamics_.speed_gained_at(policy_.soon(time_, target)) -
@@ -70,7 +70,7 @@ double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
     return policy_.speed_bound(largest_of_all(), travel_speed_, gained);
 }
 
-/// Stores the first speed of the interval if discs grow; otherwise it stays 0. **Collective.**
+/// Sets `first_speed_` at the start of a sync interval, if discs grow. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::record_first_speed() {
     const double per_micro_step = dynamics_.size_at(1) - dynamics_.size_at(0);
     if (!(per_micro_step > 0) || (time_ > 0 && n_windows_ > 0)) return;

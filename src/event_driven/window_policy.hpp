@@ -13,8 +13,8 @@ namespace carrom {
 
 /// Settings that do not change during a run; equal on all ranks.
 struct WindowSetting {
-    std::optional<double> duration; ///< duration of a window in micro-steps; unset: the fastest one
-    std::optional<int> halo;        ///< halo of a block's first run, in reaches; unset: chosen
+    std::optional<double> duration; ///< duration of a window in micro-steps; chosen if unset
+    std::optional<int> halo;        ///< halo of a block's first run, in reaches; chosen if unset
     /// Bound of speeds, relative to the largest speed at a window's start
     double speed_allowance = 1.08;
     double n_threads = 0; ///< threads of all ranks together; 0 if each rank has one thread
@@ -26,7 +26,7 @@ struct PlannedWindow {
     double end = 0;
 };
 
-/// A round of block runs that had to be repeated; equal on all ranks.
+/// A round of repeated block runs; the numbers are equal on all ranks.
 struct Rollback {
     double repeated = 0;         ///< number of repeated block runs, as a share of all blocks
     double waited = 0;           ///< extra time of the slowest rank, relative to its first runs
@@ -67,8 +67,8 @@ private:
     double rate_to_expect_ = 0;   ///< the rate used for the choice; it falls only slowly
     double last_duration_ = 1;    ///< duration of the last window
     double rounds_lately_ = 0.05; ///< running mean of the number of rounds
-    double n_rounds_ = 0;         ///< number of repeated rounds in the last window
-    Rollback last_;               ///< sums over the repeated rounds; the price of the last round
+    double n_rounds_ = 0;         ///< number of rounds of repeated runs in the last window
+    Rollback last_;               ///< sums over these rounds, and the price in the last one
     Caution caution_;
 };
 

@@ -36,7 +36,7 @@ struct SerialMachine {
     template <class Kernel> static void for_each(std::uint32_t n, const Kernel& kernel) {
         for (std::uint32_t i = 0; i < n; ++i) kernel(i);
     }
-    /// Calls the kernel `*n` times. On a GPU `n` is in device memory, and `most` limits `*n`.
+    /// Calls the kernel `*n` times. On a GPU `n` is in device memory. `*n` is at most `most`.
     template <class Kernel>
     static void for_each_of(const std::uint32_t* n, std::uint32_t /*most*/, const Kernel& kernel) {
         for_each(*n, kernel);

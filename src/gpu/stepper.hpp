@@ -53,7 +53,7 @@ public:
     virtual void take_stress(StressSums& sums) = 0;
 };
 
-/// Device memory in bytes: for each disc, and in addition for each run.
+/// Device memory in bytes: for each disc, and for each run in addition to its discs.
 constexpr std::uint64_t device_bytes_per_disc = 152, device_bytes_of_run = std::uint64_t{64} << 20;
 
 /// A kind of device; each way to compile the kernels has one.

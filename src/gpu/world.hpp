@@ -47,7 +47,7 @@ struct DeviceCounters {
     std::uint32_t n_waiting[rounds_of_all + 2] = {};
     std::uint32_t is_cut = 0;  ///< whether discs are too fast for the rest of the window, 0 or 1
     std::uint32_t n_micro = 0; ///< completed micro-steps of the window
-    /// Numbers of candidates found and carried out since the run began
+    /// Numbers of candidates found and carried out since the stepper was made
     std::uint64_t n_candidates = 0, n_kept = 0;
     Largest squared_speed; ///< over all discs at the last sync and all collisions since
 };

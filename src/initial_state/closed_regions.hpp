@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds discs that random insertion has placed in regions that fixed bodies separate from the other
-// discs, such as the inside of a polygon of segments. The density there differs from that of the
-// rest, which the author of a scene may not expect.
+// discs, such as the inside of a polygon of segments. The density there differs from the density
+// elsewhere, which the author of a scene may not expect.
 //
 // The box is covered with points that are two thirds of the smallest radius apart. A point is
 // blocked if the smallest disc there would overlap a fixed body by more than this distance, if the

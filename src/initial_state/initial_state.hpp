@@ -20,7 +20,7 @@ std::vector<InputDisc> generated_places(const SceneParameters& scene,
 std::vector<InputDisc> initial_places(const SceneParameters& scene, std::istream* lines,
                                       const Communicator& communicator, int n_threads);
 
-/// Draws velocities, adds streams, or reverses listed velocities, by the scene. **Collective.**
+/// Draws velocities and adds streams, or reverses listed ones, as `scene` requires. **Collective.**
 void give_first_velocities(const SceneParameters& scene, std::vector<InputDisc>& discs,
                            const Communicator& communicator, int n_threads);
 
@@ -31,8 +31,8 @@ void refuse_in_fixed_bodies(const SceneParameters& scene, const std::vector<Inpu
 
 /// Returns every disc of the scene exactly once, on any rank. No rank has more than its share and a
 /// bounded chunk. simulation/first_discs.hpp makes compressed starts and groups, because they
-/// need engines. `lines` is the stream of listed discs on rank 0, or null if the scene has a
-/// generator. Problems in it become an InputError on every rank. A generator gives the same discs
+/// need engines. `lines` is the stream of read_listed_discs, or null if discs are not read from
+/// lines. Problems in it become an InputError on every rank. A generator gives the same discs
 /// for any number of ranks. **Collective.**
 std::vector<InputDisc> initial_state(const SceneParameters& scene, std::istream* lines,
                                      const Communicator& communicator, int n_threads = 1);

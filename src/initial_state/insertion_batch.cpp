@@ -73,7 +73,7 @@ void InsertionBatch::take_out(std::vector<Notice> found, std::vector<std::uint32
     });
 }
 
-/// Lists the proposals in the own strip that overlap no placed disc.
+/// Lists the proposals in this rank's strip that overlap no placed disc.
 void InsertionBatch::find_free() {
     free_.clear();
 #pragma omp parallel num_threads(n_threads_)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs many rounds of random_insertion.hpp together, with the result of one round after another.
+// Runs many rounds of random_insertion.hpp together, as if they ran one after another.
 //
 // When little free space is left, nearly all proposals overlap a disc that has been placed. The few
 // free proposals, and the proposals of the same round that overlap them, are sent to all ranks. All
@@ -35,7 +35,7 @@ public:
                                 std::uint64_t n_left) const;
 
 private:
-    /// The disc `earlier`, with a lower id, whose proposal overlaps that of disc `id` in a round.
+    /// The proposals of discs `id` and `earlier`, which has the lower id, overlap in this round.
     /// The disc `id` is not placed in this round, unless `earlier` was placed in a previous one.
     struct Rival {
         std::uint32_t round = 0, id = 0, earlier = 0;

@@ -134,13 +134,13 @@ public:
     /// Returns the placed discs that this rank needs, from all ranks' `given`. **Collective.**
     std::vector<Notice> gather(const std::vector<InputDisc>& given) const;
 
-    /// Makes all ranks' proposals, with all threads, and lists the proposals that this rank needs,
-    /// together with the `updates` of other ranks. **Collective.**
+    /// Each rank makes its proposals, with `n_threads` threads. Lists the proposals that this rank
+    /// needs, together with the `updates` of other ranks. **Collective.**
     void propose(const Proposers& proposers, std::span<const Notice> updates, int n_threads,
                  RawVector<Notice>& concerning) const;
 
     /// Calls `visit(place)` for the position of a notice and for each of its images near the box,
-    /// and stops when it returns true. A grid puts positions beyond its ends into its last cells.
+    /// and stops when it returns true. A grid puts positions outside it into its outermost cells.
     template <class Visit> bool for_images(const Notice& notice, const Visit& visit) const {
         if (visit(Point{notice.x, notice.y})) return true;
         if (!periods_.are_any()) return false;

@@ -34,8 +34,8 @@ private:
     random_data data_{};
 };
 
-/// All positions by id; nothing if the box is so full that a bounded number of draws is not
-/// enough.
+/// Positions of all discs in the order of ids; nothing if the box is so full that a bounded number
+/// of draws is not enough.
 std::optional<std::vector<Point>> legacy_positions(const SceneParameters& scene,
                                                    LegacyRandom& random);
 

@@ -60,7 +60,7 @@ public:
         }
     }
 
-    /// Whether `is_hit(number)` holds for a point near `place`; stops at the first such point.
+    /// Whether `is_hit(number)` is true for a point in the 9 cells around `place`.
     template <class IsHit> bool any_near(Point place, const IsHit& is_hit) const {
         const std::uint64_t c = column(place.x), r = row(place.y);
         const std::uint64_t last_column = std::min(c + 1, columns_ - 1),

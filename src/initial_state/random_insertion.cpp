@@ -27,7 +27,7 @@ namespace {
 constexpr std::uint64_t most_idle_rounds = 10000;
 constexpr std::uint64_t most_starts = 10;
 
-/// While a larger share of proposals is accepted, each round has an exchange of its own.
+/// While a larger share of proposals is accepted, ranks exchange proposals in every round.
 constexpr double most_placed_in_batches = 0.25;
 
 class Insertion {
@@ -209,7 +209,7 @@ private:
     PlacedDiscs placed_;
     /// A grid of a round's proposals, while rounds run one after another
     std::optional<PointGrid> proposal_grid_;
-    std::vector<std::uint32_t> unplaced_; ///< ranks have different discs
+    std::vector<std::uint32_t> unplaced_; ///< ids of this rank's discs without a place
     RawVector<Notice> proposals_;
     std::vector<Notice> updates_; ///< discs placed in the last round that other ranks need, too
 };

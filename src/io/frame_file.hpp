@@ -55,9 +55,9 @@ public:
     void check_numbers() const;
 
     /// Replaces `rows` by the rows [begin, end) of a frame. A log has one frame, number 0.
-    /// Positions count from the lower left corner of the box.
+    /// Positions are relative to the lower left corner of the box.
     void read(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const;
-    /// Reads the rows with positions that count from the scene's origin.
+    /// Like `read`, but with positions relative to the scene's origin.
     void read_shown(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const;
 
     /// The rows, ascending, of a frame's discs that have left the box through an open side. The
@@ -81,7 +81,7 @@ private:
 struct FileDifference {
     bool is_same = true;
     std::string first;  ///< the first difference, such as "step 10, disc 17, vx: 0.25 and 0.5"
-    double largest = 0; ///< the largest difference of all numbers
+    double largest = 0; ///< the largest absolute difference of two numbers
     std::string largest_in;
 };
 

@@ -14,7 +14,7 @@ namespace carrom::h5md {
 
 namespace {
 
-/// Writes /h5md: the author, the program and its version.
+/// Writes /h5md: the author, the program, its version, and the units that the scene names.
 void write_metadata(hid_t file, const RecordedSystem& system) {
     const std::string& program_version = system.program_version;
     const h5::Group h5md = h5::create_group(file, "h5md");

@@ -32,7 +32,7 @@ void write_bodies(hid_t file, const RecordedSystem& system);
 std::array<double, 3> edges_of(const RecordedSystem& system);
 
 /// The unit of length^`lengths` times time^`times`, in the notation of H5MD's module `units`. Empty
-/// if the scene names no units.
+/// if the scene does not name these units.
 std::string unit_of(const RecordedSystem& system, int lengths, int times);
 void write_unit(hid_t dataset, const std::string& unit);
 

@@ -44,9 +44,9 @@ public:
     SegmentedFile(const std::string& path, std::vector<RecordedColumn> columns, Build build,
                   const Communicator& communicator);
 
-    /// Makes a new file without rows, which replaces any other. If this or any other call fails,
-    /// every rank throws CollectiveError (exit code 4), and the file is as it was at the last
-    /// commit. **Collective.**
+    /// Makes a new file without rows, which replaces any other. If this or another collective call
+    /// fails, every rank throws CollectiveError (exit code 4), and the file is as it was at the
+    /// last commit. **Collective.**
     void begin();
 
     /// Continues an existing file after `check` has accepted it, cut back to the rows whose number

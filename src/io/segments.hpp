@@ -25,7 +25,7 @@ struct FileSegment {
     std::vector<std::uint64_t> places; ///< offset of each column in the segment
 };
 
-/// The list of segments in the small file.
+/// The list of segments in the file that joins them.
 struct Index {
     std::vector<std::uint64_t> row_bytes; ///< bytes of a row for each column
     std::vector<FileSegment> segments;

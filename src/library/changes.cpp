@@ -77,14 +77,14 @@ struct Change {
     bool is_on() const { return of_place || of_velocity || of_spin; }
 };
 
-/// The disc with positions from the box's lower left corner. Unchanged positions keep all bits.
+/// The disc, relative to the box's lower left corner. Unchanged coordinates keep all bits.
 Disc counted_from_corner(Disc disc, const DiscState& shown, const Origin& origin) {
     disc.x = disc.x == shown.x - origin.x ? shown.x : disc.x + origin.x;
     disc.y = disc.y == shown.y - origin.y ? shown.y : disc.y + origin.y;
     return disc;
 }
 
-/// Compares with `shown`, the disc in the frame of the box with velocities per micro-step.
+/// Compares a given disc with `shown`, its state in the box's frame, per micro-step.
 Change change_of(const Disc& disc, const DiscState& shown, double unit, double spin) {
     return {disc.x != shown.x || disc.y != shown.y,
             disc.vx != shown.vx * unit || disc.vy != shown.vy * unit, disc.spin != spin};
@@ -118,7 +118,7 @@ void refuse_spins_of_smooth(const std::vector<Disc>& discs, const Run& run) {
                            "set effects.contact.kind = \"rough\" in the scene"}});
 }
 
-/// The problems of discs in the order of their ids.
+/// The problems of the given discs, which are in the order of their ids like `present`.
 std::vector<Problem> problems_of(const std::vector<Disc>& discs, const std::vector<Disc>& present,
                                  const Run& run) {
     const auto has_same_id = [](const Disc& a, const Disc& b) { return a.id == b.id; };

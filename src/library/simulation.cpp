@@ -76,7 +76,7 @@ Simulation::State::State(SceneParameters checked, RunStart start, const Communic
 }
 
 std::int64_t Simulation::State::ImageReading::next_due(std::int64_t) const {
-    // Requests no stops of its own, because the run stops often enough
+    // Never due by itself, because the run calls all its actions often enough
     return std::numeric_limits<std::int64_t>::max();
 }
 

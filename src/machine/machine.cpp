@@ -35,7 +35,7 @@ constexpr int most_threads = 1024;
 /// The largest number of threads for each core without a
 /// warning. Two are usual in trials on small machines.
 constexpr int most_crowded = 2;
-/// Up to two threads are accepted for any number of discs.
+/// Up to two threads give no warning, however few discs a rank has.
 constexpr int few_threads = 2;
 
 /// The variable OMP_NUM_THREADS. If it is empty it counts as unset, because a batch script may set

@@ -48,7 +48,7 @@ double blurred_flight(const SceneParameters& scene, double speed) {
     return speed * static_cast<double>(scene.sync_every) * 0x1p-53;
 }
 
-/// Throws if rounding moves discs by a radius, because contacts are then meaningless.
+/// Throws if rounding of times moves a disc by more than a radius: contacts would be meaningless.
 void refuse_blurred_places(const SceneParameters& scene, double speed) {
     const double radii = blurred_flight(scene, speed) / scene.radius;
     if (radii <= 1) return;

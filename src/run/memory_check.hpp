@@ -8,7 +8,7 @@
 namespace carrom {
 
 /// Throws InputError on every rank if the discs need more memory than a rank has.
-/// `bytes_for_crowds`: extra bytes a disc where discs are clustered, if known. **Collective.**
+/// `bytes_for_crowds`: extra bytes a disc, on average, for clustered discs. **Collective.**
 void check_memory(const SceneParameters& scene, const Communicator& ranks,
                   double bytes_for_crowds = 0);
 

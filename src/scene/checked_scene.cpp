@@ -116,7 +116,7 @@ bool is_wrong(const SceneDraft& draft, std::string_view key) {
 }
 
 /// Whether another key of the table has a wrong value, on which the key's meaning may depend: in
-/// tables of sides, contacts and thermostats the kind decides which keys have a meaning.
+/// tables with a key `kind`, such as those of sides, its word decides which keys have a meaning.
 bool has_wrong_neighbour(const SceneDraft& draft, const Key& key) {
     if (!find_key(std::string(key.table()) + ".kind")) return false;
     const auto& all = draft.settings.all();

@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// The word in small letters and without hyphens, so that Nose-Hoover and nosehoover are equal.
+/// The word in small letters, without `-`, `_` and blanks: Nose-Hoover and nosehoover are equal.
 std::string letters_of(std::string_view word) {
     std::string letters;
     for (const char c : word)

@@ -16,7 +16,7 @@ void check_value(const Key& key, Setting& setting, Problems& problems);
 std::string kind_text(const Key& key);
 /// Text such as "from 0 to 1" or "greater than 0"; empty if every number is allowed.
 std::string range_text(const Range& range);
-/// Human-readable text of a number: large powers of two are printed as 2^53.
+/// Human-readable text of a number: very large and very small powers of two are printed like 2^53.
 std::string number_text(double number);
 /// The shortest decimal that reads back as the same bits.
 std::string decimal_text(double number);

@@ -19,7 +19,7 @@ std::optional<std::size_t> count_species_rows(const SceneDraft& draft);
 bool is_species_row(double number, std::size_t n_rows);
 
 /// Why the three numbers of `row` from index `begin` on are wrong; empty if they are valid.
-/// `why_smooth` is the reason why the last two have no meaning; empty if they have a meaning.
+/// `why_smooth` names the condition without which the last two have no meaning; empty if it holds.
 std::string problem_of_contact_numbers(const Numbers& row, std::size_t begin,
                                        std::string_view why_smooth);
 

@@ -188,7 +188,7 @@ private:
     std::string place_;
     LineReader lines_;
     bool is_header_taken_ = false;
-    std::optional<Columns> columns_; ///< set if they are named or guessed
+    std::optional<Columns> columns_; ///< columns of a line, if named or guessed
     SurveyOfDiscs found_;
 };
 

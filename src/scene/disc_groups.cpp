@@ -62,7 +62,7 @@ Numbers row_of(const DiscGroup& group) {
     return row;
 }
 
-/// Stores rows that have a count. The others are computed later; then all rows are stored again.
+/// Stores rows that have a count. Other counts are computed later; then all rows are stored again.
 void set_groups(SceneParameters& scene, const Value& value) {
     scene.groups.clear();
     for (const Value& row : std::get<Values>(value.data))

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// Equal on all machines: 10^(k / n) is whole or irrational, so no product ends in exactly 0.5.
+/// The step of frame k. All machines round alike: 10^(k / n) is whole or irrational, so no ties.
 double growing_step(const TrajectoryOutput& output, std::int64_t k) {
     return std::round(
         static_cast<double>(output.every_steps) *

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The only declarations of scene keys. The reader of scenes and its checks, `--set`, the
-// comparison at a restart, the writer of scenes and the reference page all use them.
+// Scene keys are declared once, with the types of this file. The reader of scenes, its checks,
+// `--set`, comparisons at restarts, the writer of scenes and the reference page use them.
 //
 // To add a key: add a member to SceneParameters, and declare the key in the file of its effect or
 // side, or in a keys_of_*.cpp. If it cannot be combined with another key, add a rule there, or a
@@ -42,12 +42,12 @@ struct Dimension {
 /// The dimension of a unit such as "mass length^2/step^2". Other words are ignored.
 Dimension dimension_of(std::string_view unit);
 
-/// The allowed range of a number; the ends are included.
+/// The allowed range of a number. The ends are included, but `low` is not if `excludes_low` is set.
 struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
     bool excludes_low = false;
-    bool allows_zero = false; ///< whether 0 is allowed, too
+    bool allows_zero = false; ///< whether 0 is allowed even outside of the range
     std::string_view why = "";
 };
 
@@ -55,17 +55,17 @@ struct Range {
 struct Need {
     std::string text; ///< describes the missing condition, after the words "has no meaning"
     std::function<bool(const SceneParameters&)> holds;
-    bool is_of_generator = false; ///< the condition depends on discs.generator only
+    bool is_of_generator = false; ///< the condition concerns how discs are generated
 };
 
-/// A number of a table, or all numbers of a row: Kind::tables has one field for each key of a
-/// table, Kind::rows one field without a name. Numbers that the form calls x or y, or x0, y0, x1
-/// and so on, are places (scene/places.hpp).
+/// The numbers of one key of a table, or all numbers of a row: Kind::tables has one field for each
+/// key of a table, Kind::rows one field without a name. Numbers that the form calls x or y, or x0,
+/// y0, x1 and so on, are places (scene/places.hpp).
 struct Field {
     std::string_view name;
     std::string_view form; ///< the shape of the numbers, such as "[x, y, radius]"
     std::size_t least = 1, most = 1;
-    std::optional<double> fallback = {}; ///< NaN: the number may be missing
+    std::optional<double> fallback = {}; ///< default; NaN: may be missing; unset: required
     /// The allowed words; the stored number is the index of the word. The words "false" and "true"
     /// of a flag have no quotes.
     std::vector<std::string_view> words = {};
@@ -73,7 +73,7 @@ struct Field {
     bool is_flag() const { return !words.empty() && words.front() == "false"; }
 };
 
-/// A key of scenes, made by the function `key` (key_members.hpp). The functions below that return
+/// A key of scenes, made by a function of key_members.hpp. The functions below that return
 /// `Key&&` complete the declaration.
 struct Key {
     std::string name;
@@ -88,7 +88,7 @@ struct Key {
     /// Keys one of which may be given instead, if this key is required
     std::vector<std::string_view> or_from = {};
     std::string_view old_name = "";
-    /// Names in other programs, and the advice for each.
+    /// Words that other programs use as values of this key, and the advice for each.
     std::vector<std::pair<std::string_view, std::string_view>> advice = {};
     std::vector<Field> fields = {};
     /// For Kind::rows: a single row may be written without the outer brackets
@@ -151,7 +151,7 @@ struct Rule {
     std::string_view one, other, why;
     /// The problem is reported at the first of these keys that the scene has
     std::vector<std::string_view> keys;
-    std::optional<BoundaryKind> boundary = {}; ///< if set: or else at a side of this kind
+    std::optional<BoundaryKind> boundary = {}; ///< otherwise it is reported at a side of this kind
     bool (*is_broken)(const SceneParameters&);
 };
 

@@ -86,7 +86,7 @@ template <class T> inline constexpr bool is_list<std::vector<T>> = true;
 template <class T> inline constexpr bool is_optional = false;
 template <class T> inline constexpr bool is_optional<std::optional<T>> = true;
 
-/// A row is a struct that contains only doubles, in the order of the row.
+/// The numbers of `Row`, a struct that contains only doubles, in the order of rows in scenes.
 template <class Row> using RowNumbers = std::array<double, sizeof(Row) / sizeof(double)>;
 
 template <class Member> constexpr Kind kind_of() {
@@ -188,7 +188,7 @@ inline Key named_key(std::string name, std::string_view unit, std::string_view h
     return named;
 }
 
-/// A complete key. `member` returns a reference to the key's member of a scene, which may be const.
+/// A complete key. `member(scene)` returns a reference to its member; the scene may be const.
 template <class Get>
 Key key(std::string name, std::string_view unit, std::string_view help, const Get& member) {
     Key declared = named_key(std::move(name), unit, help);

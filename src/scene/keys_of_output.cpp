@@ -11,7 +11,7 @@ namespace {
 constexpr Range every{1, largest_steps};
 constexpr Range at_least_one{.low = 1}; ///< range of the number of words
 
-/// Makes a key for a word that the scene stores as text. An empty word is not written.
+/// Makes a key whose value is a word; `word_of` and `take` convert it. No empty word is written.
 Key choice(std::string name, std::string_view help, std::vector<std::string_view> words,
            std::string (*word_of)(const SceneParameters&),
            void (*take)(SceneParameters&, const std::string&)) {

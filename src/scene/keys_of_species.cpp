@@ -60,7 +60,7 @@ void set_species(SceneParameters& scene, const Value& value) {
     }
 }
 
-/// Splits the discs of a species into rows: a row ends where a number or the region changes.
+/// Splits a species into rows. A row ends where a number, the region or the input's row changes.
 class SpeciesRows {
 public:
     explicit SpeciesRows(const SceneParameters& scene)

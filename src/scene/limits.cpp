@@ -98,7 +98,7 @@ struct Room {
 /// input, an ulp of L, at most 2^-52 L. Discs depart when they are a radius beyond an open side.
 Room room_along(Axis axis, const SceneParameters& scene, double radius) {
     const bool is_x = axis == Axis::x;
-    const Extent walls = extent_at(scene.effects, scene.box, 0); // at time 0: sides may swing
+    const Extent walls = extent_at(scene.effects, scene.box, 0); // at time 0: walls may oscillate
     const double length = along(axis, scene.box), slack = 0x1p-52 * length;
     if (is_x ? scene.effects.is_periodic_x() : scene.effects.is_periodic_y()) return {0, length};
     const auto inwards = [&](std::size_t side) {

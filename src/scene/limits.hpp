@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The range of numbers in a scene. Sizes and speeds stay within 2^+-250, so that no product of the
-// method can overflow or underflow (docs/understanding/method.md, section 4.4). Lengths are above
-// 2^-230, because otherwise discriminants of near grazes would be denormal.
+// method can overflow or underflow (docs/understanding/method.md, section 4.4). Lengths are at
+// least 2^-230, because otherwise discriminants of near grazes would be denormal.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +18,19 @@ inline constexpr double largest_size = 0x1p+250;
 inline constexpr std::uint64_t largest_count = 0xFFFFFFFEu;
 /// Step numbers up to this are exact in a double
 inline constexpr std::int64_t largest_steps = std::int64_t{1} << 53;
-/// Just above pi / (2 sqrt 3), the densest packing of the plane
+/// Just above pi / (2 sqrt 3), the packing fraction of the densest lattice of equal discs
 inline constexpr double largest_packing = 0.9069;
 /// Random insertion slows down above this packing, and jams at about 0.54
 inline constexpr double largest_random_packing = 0.5;
 /// Most micro-steps between syncs in single precision: a float then resolves 1/2048 micro-step
 inline constexpr std::int64_t longest_single_sync = 4096;
 inline constexpr double smallest_single_size = 0x1p-40,
-                        largest_single_size = 0x1p+40; ///< third powers of such sizes are floats
+                        largest_single_size = 0x1p+40; ///< third powers of them fit into a float
 /// Largest ratio L / r. Positions are then rounded by 1e-10 r, a hundredth of the tolerance of
 /// contacts with walls, 1e-8 r. In larger boxes positions would be too coarse for these contacts.
 inline constexpr double largest_box_in_radii = 1e6;
 inline constexpr double longest_drag = 4; ///< limit of drag's rate times the time between syncs
-/// Limit of crossings of the box in a micro-step; beyond it all collisions have equal times
+/// Most crossings of the box in a micro-step, so that times of collisions can be distinguished
 inline constexpr double most_crossings = 0x1p40;
 
 /// The largest sum of the radii of a fixed body and a disc, in units of the period, so that a disc

@@ -2,8 +2,8 @@
 // Reads lines of a stream in bounded memory, so that a line without an end does not fill the
 // memory.
 //
-// It reads whole blocks. So after the last line, other readers of the stream do not find the text
-// that follows directly.
+// It reads whole blocks. So after the last line, the position of the stream is usually beyond the
+// end of that line.
 #pragma once
 
 #include <cstdint>

@@ -39,8 +39,8 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given, 
     });
 }
 
-/// Stores the valid settings in scenes, except lists of rows, because they are long, and tables
-/// that a scene may lack.
+/// Stores the valid settings in scenes. Lists of rows are left out, because they are long, and so
+/// are the keys of tables that a scene may lack.
 void take_right_values(const std::vector<Setting>& all,
                        std::initializer_list<SceneParameters*> scenes) {
     for (const Setting& one : all) {

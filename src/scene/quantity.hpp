@@ -2,7 +2,7 @@
 // The declaration of a quantity of [output.measurements]: its keys, rules of conflict, checks, and
 // text for the pages. The code that measures it is in a higher module, src/measure, and so is its
 // declaration. A program that measures stores the declarations here when it starts. The reader, the
-// pages and the checks loop over the list, so they contain the name of no quantity.
+// pages and the general checks loop over the list, so they need not name any quantity.
 #pragma once
 
 #include <string>
@@ -56,7 +56,7 @@ struct QuantitySetting {
                 std::string_view by_default = "") const;
 };
 
-/// The keys of all quantities, each with the quantities that need it.
+/// The keys of all quantities. Each has a meaning only if a quantity that uses it is measured.
 std::vector<Key> keys_of_quantities();
 std::vector<Rule> rules_of_quantities();
 

@@ -23,7 +23,7 @@ struct SceneDraft {
     SceneParameters& scene;
     Settings& settings;
     Problems& problems;
-    const DiscColumns* columns = nullptr; ///< columns in the file of discs
+    const DiscColumns* columns = nullptr; ///< columns of the file of discs; null if not read
 
     /// Adds a problem at the first of these keys that the input has, or at the whole scene.
     template <class Keys> void refuse_first(const Keys& keys, std::string text) const {
@@ -79,7 +79,7 @@ inline double steps_between_syncs(const SceneParameters& scene) {
 /// wrong, or if the number of discs is in a file that has not been read.
 bool check_discs(const SceneDraft& draft);
 
-/// Reports conditions of `[time.stop]` on properties that the scene's discs do not have.
+/// Reports conditions of `[time.stop]` on kT or pressure if these are undefined in the scene.
 void check_stop(const SceneDraft& draft);
 /// Reports features of the scene that a GPU cannot run, if the scene requires one.
 void check_gpu(const SceneDraft& draft);
@@ -90,7 +90,7 @@ void check_columns(const SceneDraft& draft);
 /// be drawn.
 void check_rows_of_list(const SceneDraft& draft);
 
-/// Checks numbers of steps, rates and times against each other.
+/// Checks numbers of steps, of micro-steps and of samples against each other.
 void check_times(const SceneDraft& draft);
 
 /// Reports a contact time of more than `longest` steps, with the reason `why`, if discs may come to

@@ -3,7 +3,7 @@
 // reads the text of the input afterwards.
 //
 // Velocities and times are in the scene's unit of time, the step. The engine divides velocities by
-// `micro_steps` when it takes the discs.
+// `micro_steps` when it receives the discs.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ enum class Generator { random, lattice, triangular, compressed, legacy, file };
 enum class VelocityKind {
     maxwell,
     uniform,
-    reversed ///< the listed velocities with the opposite sign
+    reversed ///< the listed velocities and spins with the opposite sign
 };
 
 /// The lines on standard output: none, steps 0 and S, or every step (the course
@@ -48,18 +48,18 @@ struct InputDisc {
     friend bool operator==(const InputDisc&, const InputDisc&) = default;
 };
 
-/// Discs with consecutive ids, up to `end` - 1, that start with the same number in a column.
-/// Rates are per step.
+/// Discs with consecutive ids, up to `end` - 1, that start with the same number in a side column
+/// (core/side_columns.hpp). Rates are per step.
 struct NumberRun {
     DiscId end = 0;
     double number = 0;
 
     friend bool operator==(const NumberRun&, const NumberRun&) = default;
 };
-/// The initial numbers of columns, by ids. A column is empty if all its numbers are 0.
+/// The initial numbers of side columns, in the order of ids; empty for a column that is not given.
 using FirstNumbers = BySideColumn<std::vector<NumberRun>>;
 
-/// The columns that a line of `discs_file` may have. Side columns follow from `first_side` on.
+/// The columns that a line of discs may have. Side columns follow from `first_side` on.
 enum class DiscColumn : std::size_t { id, x, y, vx, vy, radius, mass, first_side };
 
 constexpr DiscColumn disc_column_of(SideColumn column) {
@@ -82,14 +82,14 @@ struct Origin {
     friend bool operator==(const Origin& a, const Origin& b) { return a.x == b.x && a.y == b.y; }
 };
 
-/// A rectangle, and a velocity that is added to the discs generated inside it, for example for a
-/// jet or a moving slab.
+/// A rectangle, and a velocity that is added to the drawn velocities of discs in it, for example
+/// for a jet or a moving slab.
 struct Stream {
     double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
     double vx = 0, vy = 0;
 };
 
-/// A rectangle that contains discs of random positions as a whole.
+/// A rectangle in which discs start as a whole, or with their centres in the case of `freeze`.
 struct StartRegion {
     double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
 
@@ -129,7 +129,7 @@ struct CheckpointOutput {
     std::string folder; ///< in the run's folder; relative to the working folder
     std::optional<std::int64_t> every_steps;
     std::optional<double> every_minutes; ///< wall time in minutes
-    std::int64_t keep = 2;               ///< number kept; older ones are removed
+    std::int64_t keep = 2;               ///< number of checkpoints kept; older ones are removed
     bool at_end = true;
     Transfers transfers = Transfers::independent;
 };
@@ -140,7 +140,7 @@ struct TrajectoryOutput {
     std::int64_t every_steps = 1;
     std::int64_t frames_per_decade = 0; ///< 0: frames at regular steps
     bool has_position = true, has_velocity = true, has_collisions = false;
-    bool has_image = false;      ///< image counts; default: true in periodic boxes
+    bool has_image = false;      ///< image counts; default: true in periodic boxes without shear
     ComputedFieldSet computed{}; ///< none, if the scene lists no fields
     SideColumnSet columns;       ///< all columns of the discs, if the scene lists no fields
     bool is_single = true;       ///< numbers of 4 bytes instead of 8
@@ -198,14 +198,14 @@ struct SceneParameters {
     std::vector<std::string> overrides; ///< settings `key=value` that replace those of the text
 
     Box box;                 ///< lengths of the edges; 0 if they are not known
-    Origin origin;           ///< users' (0, 0); computations do not use it
+    Origin origin;           ///< the point that is (0, 0) for users; not used by computations
     double radius = 0;       ///< radius of the largest disc
     bool are_points = false; ///< the scene has the radius 0; `radius` is then point_radius(box)
     std::optional<SizeDistribution> sizes; ///< distribution of radii; species are made from it
     std::uint64_t n_discs = 0;
 
     Generator generator = Generator::random;
-    /// The file for Generator::file, relative to the scene; empty if lines follow the header
+    /// Path of `discs.file`, relative to the scene; empty if the scene has no such file
     std::string discs_file;
     std::string discs_from; ///< an HDF5 file with the initial discs, relative to the scene
     std::optional<std::int64_t> discs_from_step; ///< step of the frame; unset: the last frame
@@ -221,15 +221,15 @@ struct SceneParameters {
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
     std::optional<StartRegion> region; ///< region for discs without a region of their own
-    /// Regions of species or groups, by ids; empty if there are none
+    /// Regions of species or groups, in the order of ids; empty if there are none
     std::vector<RegionRun> regions;
     bool has_shares = false; ///< whether `discs.species` contains shares
     /// Groups by species, in the order of ids; they cover all discs, or the list is empty
     std::vector<DiscGroup> groups;
-    /// Discs that are generated in these regions become fixed bodies
+    /// Discs that start with their centres in these regions become fixed bodies
     std::vector<StartRegion> freeze;
-    /// Frozen discs by ids. When they are known, they are fixed bodies of the scene, and its counts
-    /// of discs do not include them
+    /// Frozen discs in the order of ids. When they are known, they are fixed bodies of the scene,
+    /// and its counts of discs do not include them
     std::vector<FrozenDisc> frozen;
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
     std::vector<DiscColumn> disc_columns; ///< `discs.columns`; see columns_of_lines
@@ -278,15 +278,15 @@ struct SceneParameters {
         const double size = effects.size_at(static_cast<double>(steps));
         return packing() * (size * size);
     }
-    /// Whether the discs are lines of text, in `discs_file` or after a legacy header.
+    /// Whether discs are read from lines: of `discs_file`, `discs_from`, or after a legacy header.
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }
 };
 
 /// The radius of equal discs whose packing in the scene is `packing`.
 double radius_of_packing(const SceneParameters& scene, double packing);
 
-/// The radius that stands for points, a billionth of the box. It is larger than any rounding, so a
-/// position is always on one side of a wall.
+/// The radius that stands for points, about a billionth of the box's longer side. It is larger than
+/// any rounding, so a position is always on one side of a wall.
 inline double point_radius(const Box& box) { return 0x1p-30 * box.longest(); }
 
 /// Whether discs may start with nonzero numbers in a column.

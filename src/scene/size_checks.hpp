@@ -6,8 +6,8 @@
 
 namespace carrom {
 
-/// Reports other keys that define radii in addition to a distribution. The number of discs may be
-/// unknown.
+/// If radii follow a distribution, reports other keys that define radii, too. The number of discs
+/// may be unknown.
 void check_rivals_of_sizes(const SceneDraft& draft);
 
 /// Whether radii can be computed: keys are valid, one gives the mean, and limits leave some radii.

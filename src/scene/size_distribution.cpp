@@ -18,7 +18,7 @@ constexpr double widest_range = 64, end_of_density = 12;
 /// Below this polydispersity s, 1 + s^2 loses too many digits of s^2.
 constexpr double narrow = 0x1p-13;
 
-/// e to the power of x.
+/// e to the power of x, with the same bits on every machine.
 double exponential(double x) { return x < 0 ? drag_slowing(1, -x) : 1 / drag_slowing(1, x); }
 
 /// The natural logarithm of `x`, by Newton's method; it ends when the change is only
@@ -60,7 +60,7 @@ Measure measure_of(const SizeDistribution& sizes) {
     return {-variance / 2, std::sqrt(variance), true, false};
 }
 
-/// Distance from the middle to the limits that a scene has by default.
+/// The default distance of the limits from the middle, in standard deviations.
 double reach_of(const SizeDistribution& sizes) {
     return sizes.kind == SizeKind::uniform ? std::sqrt(3.0) : widest_deviations;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the counts of species that are given by shares of the box or of the discs.
+// Computes the counts of species that are given by a packing, or by shares of discs or their area.
 #include <algorithm>
 #include <array>
 #include <cmath>

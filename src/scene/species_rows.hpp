@@ -20,7 +20,7 @@ inline constexpr std::size_t region = 3 + n_given_columns; ///< index of the fir
 inline constexpr std::size_t packing = region + 4, share = packing + 1, share_of_area = share + 1;
 } // namespace species_row
 
-/// The value of a number that a row of species or groups leaves out.
+/// The value of a number that a row leaves out.
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 inline bool is_given(const Numbers& row, std::size_t place) { return !std::isnan(row[place]); }
 

@@ -15,7 +15,7 @@ std::optional<StartRegion> region_of(const SceneParameters& scene, DiscId id);
 
 bool has_regions(const SceneParameters& scene);
 
-/// Why no disc of that radius fits into the region; empty if one fits.
+/// Why no disc of this radius fits into the region; empty if one fits.
 std::string problem_of_region(const SceneParameters& scene, const StartRegion& region,
                               double largest_radius);
 /// Why this number of discs, which cover `area`, cannot be placed in the region at random; empty

@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// Returns false if the text is not TOML at all, so that no keys are known.
+/// Adds the settings of a text. Returns false if it is not valid TOML, so that no key is known.
 bool add_toml(Settings& settings, Problems& problems, std::string_view text,
               const std::string& name);
 

@@ -44,7 +44,7 @@ std::string_view table_of(std::string_view key) {
 std::string_view last_of(std::string_view key) { return key.substr(key.rfind('.') + 1); }
 
 /// Names of the keys and tables in `table`. If the table is unknown, all names: those with fewer
-/// dots come first, because of equally near names the outer one is meant more often.
+/// dots come first, because among equally near names the outer one is meant more often.
 std::vector<std::string_view> names_in(std::string_view table, bool is_known) {
     std::vector<std::string_view> names;
     for (const Key& one : keys())
@@ -68,7 +68,7 @@ std::string what_there_is(std::string_view table) {
     return fmt::format("; [{}] has {}", table, list);
 }
 
-/// Keys that users of other programs may write, and the advice for each.
+/// Keys that users may expect but Carrom lacks, and the advice for each.
 constexpr std::pair<std::string_view, std::string_view> keys_tried[] = {
     {"output.checkpoint.folder", folder_text},
     {"output.trajectory.file", folder_text},

@@ -14,7 +14,7 @@ namespace carrom {
 /// nearest name by edit distance, or the existing names.
 std::string unknown_key_text(std::string_view key, const Value& value);
 
-/// The advice for a key that other programs have and Carrom lacks; otherwise empty.
+/// The advice for a key that users may expect but Carrom lacks; empty for other keys.
 std::string instead_of(std::string_view key);
 
 /// The message for a table to which the input gives a single value.
@@ -24,7 +24,7 @@ std::string table_text(std::string_view key, const Value& value);
 /// differs in more than one letter and in more than a third of the letters.
 std::string guess(std::string_view name, std::span<const std::string_view> names, char quote);
 
-/// The least number of insertions, deletions, replacements and swaps of neighbours from `a` to `b`.
+/// Least number of insertions, deletions, replacements and swaps of adjacent letters from a to b.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 } // namespace carrom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dense starts by compression (Lubachevsky and Stillinger, J. Stat. Phys. 60, 561 (1990)).
+// Dense initial states by compression (Lubachevsky and Stillinger, J. Stat. Phys. 60, 561 (1990)).
 //
 // A random gas of small discs runs under the event-driven method while radii grow, in stretches.
 // After each stretch speeds are scaled back. The heating in a stretch shows how much room is left,

@@ -44,11 +44,11 @@ public:
     std::int64_t step() const;
     std::int64_t micro_steps_done() const;
 
-    /// Own discs in no particular order: velocities per micro-step, times on `clock()`. They
-    /// include the discs that have left the box (DiscState::has_departed). Valid until the next
-    /// call.
+    /// Own discs in no particular order: velocities per micro-step, their own times on the scale of
+    /// `clock()`. They include the discs that have left the box (DiscState::has_departed). Valid
+    /// until the next call of a member function.
     std::span<const DiscState> discs() const;
-    /// The side columns (core/side_columns.hpp) in the order of `discs()`, until the next call.
+    /// The side columns (core/side_columns.hpp) in the order of `discs()`; valid as long as it is.
     SideSpans side_columns() const;
     /// The spins, in radians per micro-step; empty if discs are not rough.
     std::span<const double> spins() const { return side_columns()[SideColumn::spin]; }
@@ -59,11 +59,11 @@ public:
     double heaviest() const { return heaviest_; } ///< the largest mass of a disc
     /// The present time for DiscState::x_at: micro-steps since the last sync, or a frame's clock.
     double clock() const;
-    /// The frame (core/frame.hpp) of the coordinates of `discs()` at `clock()`. It is the frame
-    /// of the box unless discs fall.
+    /// The frame (core/frame.hpp) of the coordinates of `discs()` at `clock()`. It differs
+    /// from the box's frame if discs fall or the box is periodic.
     Frame frame() const;
     /// The own discs at `clock()` in the coordinates of the box. This is `discs()` itself unless
-    /// discs fall; otherwise it is valid until the next call.
+    /// `frame()` differs from the box's; otherwise it is valid until the next call.
     std::span<const DiscState> shown() const;
     /// Like `shown()`, but only velocities are valid. The mean flow between sheared sides is
     /// subtracted, because it is not part of the temperature.
@@ -122,7 +122,7 @@ private:
     std::unique_ptr<const AveragedSystem> averaged_system_;
     std::unique_ptr<StressSums> stress_; ///< sums to which the engine adds
     std::unique_ptr<StateCheck> check_;
-    mutable DiscStates shown_;              ///< the result of `shown()` if discs fall
+    mutable DiscStates shown_;              ///< the result of `shown()` if it is not `discs()`
     mutable DiscStates stored_;             ///< the result of `discs()` if discs have left the box
     mutable SideColumns stored_columns_;    ///< side columns of `stored_`
     std::vector<Collision>* log_ = nullptr; ///< the user's log; the check has a log of its own

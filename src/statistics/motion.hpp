@@ -49,8 +49,8 @@ struct MotionSample {
     double area = 0;   ///< area of the box
 };
 
-/// Samples everything except stress, energy and area. Each term is rounded to 2^-62 of N times the
-/// largest speed, so that the bits do not depend on ranks and threads. Without a table all masses
+/// Samples everything except stress, energy and area. Each term is rounded to about N 2^-62 of its
+/// largest value, so that the bits do not depend on ranks and threads. Without a table all masses
 /// are 1. **Collective.**
 MotionSample sample_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
                            double heaviest, std::uint64_t n_discs, int n_threads,
@@ -69,7 +69,7 @@ struct AveragedSystem {
     std::int64_t micro_steps = 1, sync_every = 1;
     bool is_plain = true; ///< discs and walls are elastic; otherwise pressures from counts are NaN
     bool keeps_discs = true; ///< no disc can leave; otherwise collisions per disc are NaN
-    /// The treatment of the common velocity along each axis
+    /// How temperature and pressure treat the mean velocity of all discs along each axis
     Drift drift_x = Drift::is_heat, drift_y = Drift::is_heat;
     bool has_flow = false; ///< the kinetic part is relative to a flow, and computed from samples
     /// Whether the kinetic energy is conserved; if not, samples are closer in time
@@ -80,7 +80,7 @@ struct AveragedSystem {
 /// Integrals over the steps between two samples.
 struct MotionIntegrals {
     double steps = 0, area = 0, n_discs = 0;
-    /// The sum of m v v, without the drift along axes where it is not part of the temperature.
+    /// Sum of m v v, without the drift along axes where the drift is not part of the temperature.
     /// There it is scaled by N / (N - 1) for the lost degree of freedom, so its mean is N kT
     /// along each axis. For a single disc it is NaN there.
     Tensor kinetic;

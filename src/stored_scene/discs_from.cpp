@@ -145,11 +145,11 @@ private:
     FrameFile file_;
     std::size_t frame_;
     std::vector<std::size_t> places_; ///< indices of the columns in the file
-    double moved_x_, moved_y_;        ///< shift from the file's corner to the scene's corner
+    double moved_x_, moved_y_;        ///< difference between the scene's and the file's origins
     ShareOfDiscs share_;
     std::uint64_t first_row_, row_ = 0;     ///< rows of the file
     std::uint64_t next_ = 0, n_before_ = 0; ///< new id of the next disc; bytes of earlier blocks
-    std::ptrdiff_t next_left_ = 0;          ///< index of the next one in `share_.departed`
+    std::ptrdiff_t next_left_ = 0;          ///< index of the next departed disc in `departed`
     std::string lines_;
     Rows rows_;
 };

@@ -12,12 +12,12 @@
 
 namespace carrom {
 
-/// Uses open addressing. A slot is in use if it was filled in the present round.
+/// A hash table with open addressing. A slot is in use if it was filled since the last `clear`.
 class DiscSet {
 public:
     void clear() {
         n_ = 0;
-        // round_ starts again after 2^32 rounds, so old slots would count as used
+        // after 2^32 calls round_ takes old values again, so old slots would count as used
         if (++round_ == 0) {
             slots_.assign(slots_.size(), {});
             round_ = 1;

@@ -17,7 +17,7 @@ void TimeSteppedEngine<Dynamics>::record_velocities(std::span<const DiscState> r
         unhit_partners_.push_back(c.is_wall() ? DiscState{} : results[c.q]);
 }
 
-/// Two ranks may hold a collision; the rank that owns the first disc logs it.
+/// Two ranks may carry out a collision. Only the rank that owns the first disc logs it.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState> results, int m) {
     const auto k = static_cast<double>(this->micro_steps_);

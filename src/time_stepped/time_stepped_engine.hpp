@@ -77,7 +77,7 @@ private:
         else
             discs_.grid().update_flight(index, disc);
     }
-    /// The disc's spin; null where discs do not turn.
+    /// The disc's angular velocity; null if discs do not rotate.
     double* spin_of(LocalIndex index) {
         return dynamics_.has_spin() ? &discs_.columns()[SideColumn::spin][index] : nullptr;
     }

@@ -101,7 +101,7 @@ double value_in(const Json& report, const AveragedColumn& quantity) {
 
 /// Compares the errors that replicas report with the scatter between replicas.
 struct Claims {
-    double claimed = NAN;       ///< root mean square of the errors; NaN if there are none
+    double claimed = NAN;       ///< root mean square of the reported errors; NaN if there are none
     double ratio = NAN;         ///< scatter divided by `claimed`
     std::size_t n_changing = 0; ///< number of replicas that are still changing
     std::size_t n_silent = 0;   ///< number of replicas too short for an error

@@ -59,8 +59,8 @@ double ratio(double part, double whole);
 
 double ns_per_disc_step(const RunResult& result);
 
-/// Whether a phase is a rank's own work. This excludes phases of waiting for other ranks (wait,
-/// exchange, conflicts) and those outside of stepping (set-up, output).
+/// Whether a phase is a rank's own work. It is not if the rank waits for other ranks in it (wait,
+/// exchange, conflicts), nor if the phase is outside of stepping (set-up, output).
 bool is_own_work(std::string_view phase);
 /// The time that a rank has spent on its own work.
 double busy_seconds(const PhaseSeconds& phases);
@@ -79,7 +79,7 @@ double rejected_share(const RunResult& result);
 /// independent samples; empty if there are none.
 std::string doubts_of_averages(const Averages& averages,
                                std::span<const WatchedNumber> watched = {});
-/// The doubts about averages and those about measured tables, in one line.
+/// The doubts about averages and about measured tables, in one line.
 std::string doubts_of_run(const RunResult& result);
 
 /// Estimates for a time-stepped run; docs/understanding/pressure.md has the formulas.
@@ -91,9 +91,9 @@ LostCollisions lost_collisions(const SceneParameters& scene, const RunResult& re
 /// A one-line warning if a run misses more than 1 % of the collisions of pairs, else empty.
 std::string warning_of_lost_collisions(const SceneParameters& scene, const RunResult& result);
 
-/// The energy that guarded collisions did not lose, divided by the energy that restitution would
-/// have taken. A collision is guarded if one of its discs has collided within the contact time
-/// before. Counts since this process began.
+/// The energy that guarded collisions would have lost, divided by the energy that restitution would
+/// have taken without the guard (dynamics/contact_guard.hpp). Contacts at rest are not included.
+/// Sums since this process began.
 double guarded_share(const RunResult& result);
 /// A warning if `guarded_share` exceeds 0.01 because of the scene's contact time, else empty.
 std::string warning_of_guarded_collisions(const SceneParameters& scene, const RunResult& result);

@@ -17,8 +17,8 @@ namespace carrom {
 /// any file is opened.
 void keep_standard_streams();
 
-/// Prints to standard error, with control characters escaped except ends of lines. Text that cannot
-/// be written is dropped, because no one could read an error message.
+/// Prints to standard error, with control characters escaped except ends of lines. If this fails,
+/// the text is dropped, because an error message could not be written either.
 void print_text(std::string_view text);
 
 template <class... Values>

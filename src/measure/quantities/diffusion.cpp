@@ -57,7 +57,7 @@ void check_window(const SceneDraft& draft) {
                              key, every, 2 * every, window));
 }
 
-/// Successive windows, each with three numbers at the times 0, every_steps ... correlation_steps.
+/// Successive windows; each has three numbers for each time 0, every_steps ... correlation_steps.
 class Windows {
 public:
     Windows(const std::vector<double>& numbers, std::size_t n_times, std::int64_t every_steps)
@@ -108,7 +108,7 @@ MeasuredTable velocity_autocorrelation(const Windows& windows) {
     return table;
 }
 
-/// D for each axis: half the growth rate of the mean square in the second half of each window.
+/// D of each axis, from the growth of the mean square displacement in a window's second half.
 MeasuredTable diffusion(const Windows& windows) {
     const std::size_t last = windows.n_times() - 1, middle = last / 2;
     MeasuredTable table{"diffusion",

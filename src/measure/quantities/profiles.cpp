@@ -121,7 +121,7 @@ public:
         const double time = run_.system.clock(), unit = run_.system.velocity_unit();
         const double per_x = static_cast<double>(n_x_) / (box.x_high - box.x_low),
                      per_y = static_cast<double>(n_y_) / (box.y_high - box.y_low);
-        const auto place = [](double x, std::size_t n) { // edges belong to outer cells
+        const auto place = [](double x, std::size_t n) { // edges count in the outer cells
             return static_cast<std::size_t>(std::clamp<std::int64_t>(
                 static_cast<std::int64_t>(x), 0, static_cast<std::int64_t>(n) - 1));
         };
@@ -172,7 +172,7 @@ private:
         return {&head.to_step, &head.steps, &head.x_low, &head.x_high, &head.y_low, &head.y_high};
     }
     std::size_t n_cells() const { return n_x_ * n_y_; }
-    /// Fields of a block: all discs in each cell, each species if separate, and the whole box.
+    /// Number of fields of a block: cells, cells of each separate species, and the whole box.
     std::size_t n_fields() const { return n_cells() * (n_kinds_ > 1 ? n_kinds_ + 1 : 1) + 1; }
 
     std::size_t kind_of(DiscId id) const {
@@ -222,7 +222,7 @@ private:
                    length = Pair{event.dx, event.dy} * grid.per_length, to = from + length;
         const PairOfCells cell = cell_at(from);
         const std::size_t to_right = static_cast<std::size_t>(cell[0]) - 1,
-                          upwards = static_cast<std::size_t>(cell[1]) - 1; // huge if row < 0
+                          upwards = static_cast<std::size_t>(cell[1]) - 1; // huge if below row 1
         const ContactTerms terms = terms_of(event);
         if (are_same(cell, cell_at(to)) && to_right < n_x_ && upwards < n_y_ && n_kinds_ == 1)
             [[likely]]
@@ -231,7 +231,7 @@ private:
             add_parts(event, FieldSums::units_of(terms), from, length);
     }
 
-    /// Divides a collision's stress among the cells on its line and among both discs' species.
+    /// Divides a collision's terms among the cells on its line and among both discs' species.
     [[gnu::noinline]] void add_parts(const PairEvent& event, const ContactUnits& whole, Pair from,
                                      Pair length) {
         ContactUnits rest = whole;

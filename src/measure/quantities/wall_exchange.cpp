@@ -54,7 +54,7 @@ public:
 
 private:
     void clear() override {
-        // Larger than the sums of any run, with a resolution of 2^-63 of a (squared) speed.
+        // These bounds exceed the sums of any run; resolution: 2^-63 of a squared speed, or speed.
         since_last_ = {WallSums(speed_scale_ * speed_scale_ * 0x1p62),
                        WallSums(speed_scale_ * 0x1p62)};
     }

@@ -2,8 +2,8 @@
 // Output of a run's data to standard output or a file. Writes are large, and a failure
 // is stored instead of ending the process.
 //
-// It uses a file descriptor, so a closed pipe or a full disk is an errno at a known
-// place. The caller reports a failure to the other ranks.
+// It uses a file descriptor, so a closed pipe or a full disk gives an errno at a known
+// call. The caller reports a failure to the other ranks.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ public:
     DataOutput(const DataOutput&) = delete;
     DataOutput& operator=(const DataOutput&) = delete;
 
-    /// Text to append to; full buffers are written by `flush_if_full`.
+    /// The buffer to which callers append text; `flush_if_full` writes it once it is full.
     fmt::memory_buffer& buffer() { return buffer_; }
 
     void flush_if_full();

@@ -20,7 +20,7 @@ namespace carrom {
 struct PlaceProblems {
     std::vector<Problem> problems, failures;
 
-    /// Adds the problem, if there is one; `key` names the path.
+    /// Adds the problem, if there is one; `key` is the key or option that sets `path`.
     void note(const std::string& key, const std::string& path, const WriteProblem& found);
     std::vector<Problem> all() const;
     /// Throws with code 2 if there are problems, with code 4 if there are only

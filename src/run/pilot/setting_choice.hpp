@@ -31,7 +31,7 @@ void decide_on(SceneParameters& scene, const RunSetting& setting);
 /// The difference between the results of a trial and of the exact run.
 struct TrialError {
     double frequency = 0, pressure = 0; ///< relative differences
-    double error = 0;                   ///< the larger of the two standard errors
+    double error = 0;                   ///< a bound for the two standard errors
 
     double largest() const;
 };

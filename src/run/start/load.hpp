@@ -19,7 +19,7 @@ namespace carrom {
 struct Loaded {
     SceneParameters scene;
     RunStart start;
-    std::vector<WriteLock> locks; ///< locks of rank 0 on all outputs
+    std::vector<WriteLock> locks; ///< rank 0's lock of the output folder, if there is one
 };
 
 /// Throws InputError on every rank with the problems of the checkpoint, of the outputs' paths, or

@@ -24,9 +24,9 @@ struct BoundaryDeclaration {
     std::string_view help; ///< description of a side of this kind, for the page of keys
     /// Whether discs bounce off the side, so that `restitution` applies to it.
     bool has_restitution = false;
-    // Properties that other features depend on. A feature that requires a property, such as
-    // `takes_growing_discs`, cannot be combined with a kind that lacks it.
-    bool is_at_rest = true;                         ///< its line never moves
+    // Properties that other features depend on. A feature may require one, such as
+    // `takes_growing_discs`; it cannot be combined with a kind that lacks this property.
+    bool is_at_rest = true;                         ///< the side never moves
     bool lets_discs_rest = false;                   ///< see EffectDeclaration::lets_discs_rest
     bool takes_growing_discs = false;               ///< growing discs may touch it
     bool (*runs_on_gpu)(const Boundary&) = nullptr; ///< see EffectDeclaration::runs_on_gpu
@@ -67,7 +67,7 @@ Need side_reflects(std::size_t side);
 Need side_needs(std::size_t side, BoundaryKind kind);
 /// Text such as " of restitution 0.9" for summaries; empty if the wall is elastic.
 std::string loss_text(const Boundary& side);
-/// Whether the discs can fit into a box of this width and height.
+/// Whether discs may fit into a box of this width and height, judged by area and shorter edge.
 bool has_room(const SceneParameters& scene, double width, double height);
 
 } // namespace carrom

@@ -47,8 +47,8 @@ void check_periodic_box(const SceneDraft& draft) {
                              period, least));
 }
 
-/// Limits the number of images. The engines search partners up to the mean distance of discs, and
-/// each period within that distance is an image of the disc itself.
+/// Limits the number of images. The engines search partners up to the mean distance between discs,
+/// and each period within that distance gives one more image of the disc itself.
 void check_images(const SceneDraft& draft) {
     constexpr double most = 0x1p20;
     const SceneParameters& scene = draft.scene;

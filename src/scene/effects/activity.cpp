@@ -69,7 +69,7 @@ private:
     }
 
     std::uint64_t seed_;
-    double speed_, momentum_; ///< gain of a disc at a sync, as speed or momentum; the other is 0
+    double speed_, momentum_; ///< speed or momentum that a disc gains at a sync; the other is 0
     double spread_;           ///< root mean square of the change of angle between syncs
     double kept_;             ///< probability that a disc does not tumble between syncs
 };
@@ -132,7 +132,7 @@ std::vector<Rule> rules_of_activity() {
     };
 }
 
-/// Reports directions that nearly always change between syncs, and so have no effect.
+/// Reports rates so high that directions are nearly random from one sync to the next.
 void check_times_of_activity(const SceneDraft& draft) {
     constexpr double longest = 4;
     const Activity& activity = draft.scene.effects.activity;

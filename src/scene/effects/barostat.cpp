@@ -10,8 +10,8 @@
 // The structure of hard discs does not depend on temperature. So velocities stay as they are, in
 // the unit of the box, and any kT gives the same result.
 //
-// At a sync the closest pair limits how far radii can grow. It is a minimum over all pairs, so all
-// ranks find the same limit. With the discs at rest the weight is a function of V alone, so the
+// At a sync the closest pair limits how far radii can grow. The limit is a minimum over pairs, so
+// all ranks find the same one. With the discs at rest the weight is a function of V alone, so the
 // `n_moves` moves of a sync take almost no time. Each move draws a new volume V' evenly from a
 // range about the present one, and accepts it with the probability min(1, exp(-p (V' - V)) (V' /
 // V)^N) (Metropolis). During a sync V stays in a cell of a fixed partition, in which lengths differ
@@ -118,7 +118,7 @@ private:
         return {low, low * cell_ratio};
     }
 
-    /// The largest change of a move: a few times V / (N (Z - 1)), the typical compression until the
+    /// The largest change of V in a move: a few times V / (N (Z - 1)), the typical compression
     /// closest pair touches. It is the same throughout the cell, so that a move and its reverse
     /// have the same probability.
     double range_in(const Cell& cell) const {

@@ -173,8 +173,8 @@ std::string summary_of_contacts(const Effects& effects) {
     return {};
 }
 
-/// Whether collisions take energy, rotational energy included. Elastic surfaces take none if they
-/// are smooth, or if they stick without a loss of energy.
+/// Whether collisions reduce the energy of motion, including rotation. Elastic surfaces do not if
+/// they are smooth, or if they stick without a loss of energy.
 bool take_energy(const ContactEffect& contact) {
     if (contact.kind == ContactKind::restitution) return true;
     if (contact.kind != ContactKind::rough) return false;

@@ -92,7 +92,7 @@ enum class Drift : std::uint8_t {
     /// Part of the temperature, because the axis has walls, or because momentum is exchanged in
     /// both directions
     is_heat,
-    is_kept,   ///< subtracted, because nothing stops it; it is one of N degrees of freedom
+    is_kept,   ///< subtracted, because nothing stops it; N - 1 degrees of freedom are left
     is_driven, ///< subtracted, because it is a flow; velocities relative to it fluctuate
 };
 
@@ -132,8 +132,8 @@ struct EffectDeclaration {
     /// Whether the effect compensates at syncs for earlier changes of energy, so that the kinetic
     /// energy jumps at each sync.
     bool (*makes_energy_jump)(const Effects&) = nullptr;
-    /// How the effect exchanges momentum with discs in other ways than through the sides of the
-    /// box; null if it does not.
+    /// How the effect exchanges momentum with all discs along a periodic axis, for example by a
+    /// thermostat or by sides that rub; null if it does not.
     CommonMotion (*common_motion)(const Effects&, Axis) = nullptr;
     /// Whether kernels of GPUs contain the effect. If the function is missing, the effect cannot be
     /// combined with machine.gpu.

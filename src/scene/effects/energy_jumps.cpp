@@ -59,8 +59,8 @@ void warn_of_rare_acts(const SceneDraft& draft) {
             often * interval, std::max(1.0, static_cast<double>(scene.micro_steps) / (2 * often))));
 }
 
-/// Warns of samples that always have the same delay after a sync, because they do not give the mean
-/// over time. Samples at syncs do, because they are taken alternately before and after the effects.
+/// Warns of samples that have only a few different delays after a sync, because they do not give
+/// the mean over time. Samples at syncs are taken alternately before and after the effects.
 void warn_of_samples_between_syncs(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements || !does_energy_jump(scene.effects)) return;

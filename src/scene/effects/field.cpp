@@ -5,8 +5,8 @@
 //
 // The map is symplectic and reversible, so free discs conserve an energy that differs from m v^2 /
 // 2 + V by a share of at most (w t)^2 / 4, with w^2 = V'' / m, and energy does not drift. In a trap
-// the disc stays exactly on an ellipse, with the frequency w (1 + (w t)^2 / 24 + ...). Outputs at a
-// sync contain the state between the two halves. At other times they contain the flight, whose
+// sync contain the state between the two halves. At other times they contain the state in flight,
+// with a velocity that is right for the middle between two syncs.
 // velocity is that of the middle between two syncs.
 #include <algorithm>
 #include <cmath>

@@ -156,8 +156,8 @@ bool sways_too_fast(const SceneParameters& scene) {
     return g.sways() && least_syncs * steps_between_syncs(scene) > g.period;
 }
 
-/// Gives strong gravity more frequent syncs than the default. If even a sync in each micro-step is
-/// not enough, check_fall reports it.
+/// Makes syncs more frequent than the default if gravity is strong or changes fast. If even a sync
+/// in each micro-step is not enough, check_fall or check_period reports it.
 void shorten_sync(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const Acceleration& g = scene.effects.gravity;
@@ -189,7 +189,7 @@ void check_period(const SceneDraft& draft) {
 }
 
 /// Limits the fall between two syncs. The falling frame must stay near the box, because far away
-/// its coordinates would be coarser than the box's.
+/// its coordinates would be coarser than those in the box.
 void check_fall(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!draft.knows_syncs()) return;

@@ -96,7 +96,7 @@ EffectDeclaration growth() {
             },
         .allowance =
             [](const Effects& e) { return CheckAllowance{.surfaces_give_energy = e.growth != 0}; },
-        // Surfaces of two discs approach each other at a constant rate, and so do work.
+        // Surfaces of growing discs move outwards at a constant speed, and so do work.
         .work_in_collision = [](const Effects& e, double impulse,
                                 double radii) { return impulse * (e.growth * radii); },
         .usual_speed = [](const SceneParameters& s) { return s.radius * s.effects.growth; }};

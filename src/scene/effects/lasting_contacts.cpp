@@ -190,7 +190,7 @@ void shorten_sync_for_hops(const SceneDraft& draft) {
         scene.sync_every /= 2;
 }
 
-/// Reports it if discs at rest would bounce too high between syncs. Returns false if they would.
+/// Whether discs at rest bounce low enough between syncs. If they bounce too high, it is reported.
 bool check_hops(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene);
@@ -237,7 +237,7 @@ void check_speed(const SceneDraft& draft) {
             speed, fallen, remedy));
 }
 
-/// Reports quantities that need forces at every step, because lasting contacts act only at syncs.
+/// Warns of samples of forces that are not at syncs, because lasting contacts act only at syncs.
 void check_samples_of_forces(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements) return;

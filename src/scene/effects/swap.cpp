@@ -76,7 +76,7 @@ struct Proposals {
     }
 };
 
-/// The other discs within the search range of each own disc.
+/// The other discs within the search range of each disc of this rank.
 class Neighbours {
 public:
     struct One {
@@ -184,7 +184,7 @@ private:
                                              static_cast<double>(swaps_.until_step);
     }
 
-    /// Whether `kept` gives each disc a number of its own.
+    /// Whether `kept` gives each disc a different number.
     bool are_numbers(std::span<const std::int64_t> kept) const {
         if (kept.size() != n_discs_ + 1) return false;
         std::vector<bool> is_held(n_discs_);
@@ -214,8 +214,8 @@ private:
         });
     }
 
-    /// The lower number of the pair, for each own disc that fits. A number occurs twice if both
-    /// discs of its pair fit.
+    /// The lower number of the pair, for each disc of this rank that fits. A number occurs twice if
+    /// both discs of its pair fit.
     std::vector<SizeNumber> fitting(const Proposals& proposals, const SyncDiscs& at,
                                     const Neighbours& neighbours) const {
         std::vector<SizeNumber> all;
@@ -318,8 +318,8 @@ std::vector<Rule> rules_of_swap() {
     };
 }
 
-/// Lists the initial radii of all discs on each rank. Limits their number, because numbers of radii
-/// have 32 bits.
+/// Lists the initial radii of all discs on each rank. Limits the number of discs, because numbers
+/// of radii have 32 bits.
 void check_and_list_radii(const SceneDraft& draft) {
     constexpr std::uint64_t most = std::uint64_t{1} << 31;
     if (!swaps(draft.scene)) return;

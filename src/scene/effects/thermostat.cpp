@@ -149,7 +149,7 @@ public:
     using ThermostatEffect::ThermostatEffect;
 
     void act(const SyncDiscs& at) override {
-        double largest = 0; // the largest velocity, including those of rough discs' surfaces
+        double largest = 0; // the largest velocity component, or speed of a rough disc's surface
         for (std::size_t i = 0; i < at.discs.size(); ++i)
             largest = std::max({largest, std::fabs(at.discs[i].vx), std::fabs(at.discs[i].vy),
                                 std::fabs(speed_of_surface(at, i))});
