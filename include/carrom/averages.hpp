@@ -31,7 +31,7 @@ struct Estimate {
     /// Always false in runs that are planned for less than a million steps.
     bool is_short = false;
     bool is_conserved = false; ///< whether all blocks agree except for rounding
-    bool is_changing = false;  ///< halves differ too much, there is a trend, or discs have left
+    bool is_changing = false;  ///< the run's halves differ too much, it has a trend, or discs left
     /// Mean of the first block, if the average is changing
     double first = std::numeric_limits<double>::quiet_NaN();
     /// Mean of the last block, if the average is changing
@@ -56,7 +56,7 @@ struct Averages {
     Estimate mean_speed;
     Estimate speed_kurtosis; ///< <v^4> / <v^2>^2; 2 N / (N + 1) in equilibrium
     Estimate temperature;    ///< kT of translation, relative to the drift along periodic sides
-    /// Pressure tensor: kinetic part, plus impulse times distance, summed over pairs that collide
+    /// Pressure tensor: kinetic part, plus impulse times distance in pair collisions / (time area)
     TensorEstimate pressure_tensor;
     Estimate pressure;        ///< half of the trace of `pressure_tensor`
     Estimate compressibility; ///< compressibility factor Z = P A / (N kT)

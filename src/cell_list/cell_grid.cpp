@@ -59,8 +59,8 @@ struct PlacesAtRest {
     static double vx_of(const DiscState& disc) { return disc.vx; }
 };
 
-/// Finds a disc's cell. Its members are copies, so that the compiler keeps them in registers while
-/// cells are stored.
+/// Finds the cell of a disc. The members are copies, so that the compiler keeps them in registers
+/// while cells are stored.
 template <class Places> struct CellFinder {
     Places places;
     GridGeometry geometry;

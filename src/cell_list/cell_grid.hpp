@@ -31,7 +31,7 @@ namespace carrom {
 struct GridGeometry {
     Axis axis = Axis::x;
     double low = 0, across_low = 0; ///< lower ends of the first column and row
-    double cell_width = 1;          ///< width of cells; change it by set_cell_width
+    double cell_width = 1;          ///< width of cells; change it with set_cell_width
     int n_columns = 1, n_rows = 1;
     int n_reach = 1; ///< discs that can collide are at most this many cells apart
 
@@ -98,8 +98,8 @@ struct Companions {
 class CellGrid {
 public:
     /// Sorts `own` by cells at the time `anchor`. Flights begin at `time` and last for `duration`.
-    /// In a periodic box the position of the disc's image is used. The grid then has no halo until
-    /// add_halo is called.
+    /// In a periodic box the position of the disc's image in the box is used. The grid then has no
+    /// halo until add_halo is called.
     void sort(std::span<DiscState> own, const GridGeometry& geometry, double anchor, double time,
               double duration, int n_threads, const Periods& periods = {},
               const Companions& companions = {});
@@ -222,8 +222,8 @@ private:
         return {starts[base + static_cast<std::size_t>(low)],
                 starts[base + static_cast<std::size_t>(high) + 1]};
     }
-    /// Calls visit with the number of the disc's cell at the window's start, and of the cells in
-    /// the same row of the columns beside it.
+    /// Calls visit with the index of the disc's cell at the window's start, and with the indices of
+    /// the cells in the same row of the columns beside it.
     template <class Visit> void for_each_place_around(LocalIndex index, const Visit& visit) const {
         if (index >= n_own_) return;
         const int column = clamped_column(lanes_[index]);

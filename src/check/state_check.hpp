@@ -21,8 +21,8 @@
 // as a collision with a wall without impulse. So departures and returns by inlets determine whether
 // a disc is in the box. The energy that departing and returning discs carry is unknown, so in such
 // a step neither their energy nor the total energy is checked. Energies include masses and spins.
-// Cost: 256 bytes a disc; in each step every disc and collision is sent once, and collisions with
-// their discs to rank 0.
+// Cost: 256 bytes a disc. In each step every disc is sent to the rank that keeps its record, every
+// collision to the ranks of its discs and to rank 0, and discs that have collided also to rank 0.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@
 
 namespace carrom {
 
-/// Numbers of this rank's discs, in their order; empty in scenes without such numbers.
+/// Numbers of this rank's discs, in the order of the discs; empty in scenes without such numbers.
 struct CheckedColumns {
     std::span<const double> spins{};         ///< spins per micro-step
     std::span<const double> swapped_radii{}; ///< present radii, if discs exchange radii
@@ -80,9 +80,9 @@ private:
         /// Number of the micro-step from which on the disc has flown straight
         std::int64_t free_from = 0;
         std::uint64_t walls = 0, pairs = 0; ///< collisions of the disc since the last inspection
-        std::uint64_t departures = 0;       ///< departures, which are included in `walls`
-        double wall_impulse = 0;            ///< total impulse from walls
-        double work = 0; ///< work of growing surfaces on this disc, per micro-step
+        std::uint64_t departures = 0;       ///< departures since then, which `walls` includes
+        double wall_impulse = 0;            ///< total impulse from walls since then
+        double work = 0; ///< energy from growing surfaces since then; a pair's is at the lower id
         int owner = -1;
     };
     struct Suspect {
@@ -172,7 +172,7 @@ private:
     Effects effects_; ///< times in micro-steps
     FixedBodies fixed_bodies_;
     SpeciesTable species_;
-    /// Motion since the last inspection due to an acceleration that changes in time
+    /// Motion along x and y since the last inspection, from the varying part of the acceleration
     std::array<Swayed, 2> swayed_{};
     double total_mass_ = 0, smallest_mass_ = 1;
     /// Largest speed of vibrating walls, and their largest acceleration towards a disc
@@ -188,7 +188,7 @@ private:
     bool may_lose_energy_ = false, walls_give_energy_ = false, surfaces_give_energy_ = false;
     bool have_open_sides_ = false, have_inlets_ = false;
     bool surfaces_rub_ = false; ///< walls or fixed bodies have friction, which changes spins
-    bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< see CheckAllowance
+    bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< as in CheckAllowance
     /// Energy that effects at syncs gave on this rank, now and at the last inspection
     double energy_given_ = 0, energy_given_before_ = 0;
     double size_ = 1, size_before_ = 1; ///< LocalView::size now and at the last inspection

@@ -148,7 +148,7 @@ bool StateCheck::have_any_moved() const {
     return communicator_.any(is_any);
 }
 
-/// A disc's energy before and after the step, with the energy that effects may have added.
+/// Twice a disc's energy before and after the step, and twice what effects may have added to it.
 SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     const Known& known = known_[i];
     SharedEnergy energy = {first_id_ + i,
@@ -206,7 +206,7 @@ void StateCheck::record_speeds() {
     fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)) + wall_speed_);
 }
 
-/// The largest potential energy of a mass of 1, from effects that act all the time.
+/// The largest potential energy of a mass of 1 in the box, without effects that act only at syncs.
 double StateCheck::largest_energy_of_place() const {
     double sum = 0;
     for (const OtherEnergy& energy : energies_)
@@ -266,8 +266,8 @@ double StateCheck::energy_of_way(std::size_t i) const {
            work_on_way(effects_, {unwrapped.x - then.x, unwrapped.y - then.y, species_.of(now.id)});
 }
 
-/// Twice the energy that a disc may gain by leaving walls with ContactGuard::least_departure. The
-/// curved path of a disc that slides along the inner face of an arc presses it to the arc.
+/// Twice the energy that a disc may gain by leaving walls with ContactGuard::least_departure. Along
+/// the inner face of an arc the curved path adds to the acceleration that presses the disc to it.
 double StateCheck::resting_gain(const Known& known) const {
     const Acceleration g = effects_.acceleration();
     const SizeAndMass& body = species_.of(known.disc.id);
@@ -287,8 +287,8 @@ double StateCheck::work_of_walls(const Known& known) const {
     return 1.01 * speed_of_walls() * known.wall_impulse / static_cast<double>(scene_.micro_steps);
 }
 
-/// The speed of vibrating walls. If the frame falls since the last inspection, all walls move in
-/// it.
+/// The largest speed of walls per micro-step. In a frame that falls with a varying acceleration all
+/// walls move.
 double StateCheck::speed_of_walls() const {
     const Acceleration g = effects_.acceleration();
     if (!g.sways()) return wall_speed_;

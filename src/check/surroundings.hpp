@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds enough discs around one that breaks an invariant for a scene that reproduces the error.
+// Collects discs around a disc that breaks an invariant, so that a scene can repeat the error.
 #pragma once
 
 #include <span>

@@ -21,7 +21,7 @@ inline constexpr std::array<ComputedField, 2> computed_field_table = {
     {{"psi6", {"psi6_real", "psi6_imaginary"}, false},
      {"neighbours", {"neighbours", nullptr}, true}}};
 
-/// For each field of the table, in order, whether the field is requested.
+/// For each field of the table, in order, whether a trajectory contains the field.
 using ComputedFieldSet = std::array<bool, computed_field_table.size()>;
 
 inline constexpr std::size_t n_computed_numbers = [] {

@@ -8,8 +8,8 @@
 // integral may extend over many syncs.
 //
 // For a path with collisions the integral is a sum over events. A collision at time t that changes
-// v into v' adds the integral up to t for v and subtracts that integral for v'. When the integral
-// is restarted, its value for v over the whole time is added.
+// v into v' adds the integral up to t for v and subtracts that integral for v'. At the end of the
+// path, the integral up to that time for the last v is added.
 #pragma once
 
 namespace carrom {

@@ -76,9 +76,9 @@ struct Inside {
     }
 };
 
-/// Maps a coordinate into [0, period) with one rounding, or two next to 0 and to the period. With
-/// period 0 it returns `place`. Adds the number of periods by which the coordinate increased to
-/// `*lengths`, unless `lengths` is null.
+/// Maps a coordinate into [0, period) with one rounding, or with two close to 0 or the period. With
+/// period 0 it returns `place` unchanged. Unless `lengths` is null, adds to `*lengths` the number
+/// of periods that were added to the coordinate.
 CARROM_DEVICE inline double wrapped(double place, double period, double* lengths = nullptr) {
     if (period == 0 || (place >= 0 && place < period)) return place;
     double up = -std::floor(place / period), inside = std::fma(up, period, place);
@@ -121,8 +121,8 @@ struct Periods {
     CARROM_DEVICE Shift shift_of(Image image, double time) const {
         return {image.x * x + image.y * offset_at(time), image.y * y, image.y * speed};
     }
-    /// The shift from the image of `p` to the image of `q`, which is added to the difference of the
-    /// stored states. It changes sign if p and q are exchanged.
+    /// The shift from the image of `p` to the image of `q`. Callers add it to the stored state of q
+    /// minus the stored state of p. It changes sign if p and q are exchanged.
     CARROM_DEVICE Shift between(const DiscState& p, const DiscState& q, double time) const {
         return are_shifted_alike(p, q) ? Shift{} : shifted_between(p, q, time);
     }
@@ -170,7 +170,7 @@ struct Periods {
         }
         disc.x = wrapped(disc.x, x);
     }
-    /// The shortest displacement between images of two discs whose positions differ by (dx, dy).
+    /// Reduces a displacement (dx, dy) to the nearest row of images, then to the nearest one in x.
     Shift nearest(double dx, double dy, double time) const {
         if (y != 0) {
             const double down = std::round(dy / y);

@@ -15,7 +15,7 @@
 namespace carrom {
 
 /// The uses of random numbers. Never change a value, because a seed must always give the same
-/// discs.
+/// numbers.
 enum class Purpose : std::uint64_t {
     position = 1,
     shake = 2,

@@ -10,8 +10,8 @@ namespace carrom {
 
 namespace {
 
-/// Limits for groups of ranks. Groups are used if a rank then has less than this share of the own
-/// and halo discs of a whole strip, and at least `least_saved` discs fewer, because copying these
+/// Limits for groups of ranks: with them a rank must have fewer own and halo discs than this share
+/// of its number with whole strips, and at least `least_saved` fewer, because copying so many discs
 /// takes as long as messages to six more neighbours.
 constexpr double worth_a_group = 0.95, least_saved = 600;
 

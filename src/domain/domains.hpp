@@ -71,8 +71,8 @@ public:
     }
 
     /// The other ranks, ascending, whose domain has points within `reach` >= 0 of the domain of
-    /// `rank`, along each axis. Discs of two such ranks may meet. Cost: the number of ranks in the
-    /// strips within reach.
+    /// `rank`, along each axis. Discs of two such ranks may meet. The cost is proportional to the
+    /// number of ranks in the strips within reach.
     std::vector<int> neighbours_within(int rank, double reach) const;
 
     friend bool operator==(const Domains&, const Domains&) = default;
@@ -86,7 +86,7 @@ private:
 
 /// The other ranks, ascending, with which `rank` may exchange discs if the domains change. Discs
 /// were in the domains `before`, have moved by at most `distance` along each axis, and go to the
-/// owners in `after`. Cost: the number of ranks.
+/// owners in `after`. The cost is proportional to the number of ranks.
 std::vector<int> movers_between(const Domains& before, const Domains& after, int rank,
                                 double distance);
 

@@ -14,8 +14,8 @@ namespace carrom {
 
 namespace {
 
-/// The axis along which strips follow each other. Moving rows of boxes slide along x. Strips are
-/// then cut along y, so that only the first and the last strip have moving images.
+/// The axis along which strips follow each other. Moving rows of boxes slide along x. Strips then
+/// follow each other along y, so that only the first and the last strip have moving images.
 Axis cut_axis(const Box& box, const Periods& periods) {
     return periods.are_moving() ? Axis::y : longer_axis(box);
 }
@@ -39,7 +39,7 @@ std::vector<int> group_sizes(const Box& box, const Periods& periods, int n_ranks
 
 /// The first domains. They have equal areas, unless discs are so clustered that one rank would have
 /// to store far more discs than the mean before the first cuts by work. `owner_in(domains, disc)`
-/// and `place_of(disc)` use the disc's own time. **Collective.**
+/// and `place_of(disc)` use the position at the disc's own time. **Collective.**
 template <class OwnerIn, class PlaceOf>
 Domains first_domains(const Communicator& communicator, const Box& box, const Domains& equal,
                       const std::vector<int>& group_sizes, std::span<const DiscState> discs,
@@ -128,7 +128,7 @@ void StripDiscs::set_departed_aside() {
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
 
-/// The owner follows from the domains of the last migration, as the next one starts from them.
+/// The owner follows from the domains of the last migration, because the next one starts from them.
 void StripDiscs::take_back(std::span<const ReturningDisc> discs) {
     if (discs.empty()) return;
     forget_halo();
@@ -177,7 +177,7 @@ template <class Values> void StripDiscs::move_along(const TransferPlan& plan, Va
     values.insert(values.end(), arrived.begin(), arrived.end());
 }
 
-/// Plans the migration. Without periodic sides it skips discs sorted far inside the domain.
+/// Plans the migration. Without periodic sides it skips discs that were sorted deep in the domain.
 TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     const int rank = communicator_.rank();
     if (periods_.are_any())
@@ -322,8 +322,8 @@ TransferPlan StripDiscs::plan_updates(std::span<const LocalIndex> changed) const
     return plan;
 }
 
-/// Copies states that a partner has sent; the partner's discs begin at `offset` in the halo. Writes
-/// the indices of these discs to `updated`.
+/// Copies states that a partner has sent; the partner's discs begin at the index `offset` in
+/// `discs_`. Writes the indices of these discs to `updated`.
 void StripDiscs::take_updates(std::span<const Update> items, std::size_t offset,
                               std::span<LocalIndex> updated) {
 #pragma omp parallel for num_threads(n_threads_)                                                   \
@@ -354,7 +354,7 @@ bool StripDiscs::is_valid(double time) const {
                     redistributed_domains_.owner(along, across) == communicator_.rank();
     }
     communicator_.sum(sums);
-    std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, as are the expected sums
+    std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, like `sums`
     for (std::uint64_t id = 0; id < n_with_departed_; ++id) {
         id_sum += id;
         square_sum += id * id;

@@ -66,7 +66,7 @@ public:
     /// `anchor` (CellGrid::sort); the grid then has no halo. `companion`: see migrate.
     void sort(const GridGeometry& geometry, double anchor, double time, double duration,
               DiscStates* companion);
-    /// Sorts the own discs into cells by their positions at `time`, for searches without flights.
+    /// Sorts the own discs into cells by their positions at `time`, for searches at that time only.
     void sort_cells(const GridGeometry& geometry, double time);
 
     /// Appends the discs within `reach` of the own domain at `time` to the own discs: discs of
@@ -172,7 +172,7 @@ private:
     /// Halo discs that fetch_more_halo has added.
     struct HaloPart {
         TransferPlan plan;
-        std::vector<std::size_t> offsets; ///< where each partner's discs begin, and the end
+        std::vector<std::size_t> offsets; ///< where each partner's discs begin in `discs_`; the end
     };
 
     template <class Values> void move_along(const TransferPlan& plan, Values& values);
@@ -186,7 +186,7 @@ private:
                      std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
     Companions companions(DiscStates* states);
 
-    /// The new state of a disc, and the index of the disc in the partner's halo.
+    /// The new state of a disc, and its index among the discs that the partner has from this rank.
     struct Update {
         DiscState disc;
         std::uint64_t place;
@@ -214,11 +214,11 @@ private:
     /// Own discs whose image is displaced, and this image
     std::vector<std::pair<LocalIndex, Image>> displaced_;
     bool are_displaced_listed_ = false; ///< whether `displaced_` was filled since the migration
-    bool has_images_ = false; ///< own discs had their images in the box when they were sorted
+    bool has_images_ = false; ///< if false, the next migration searches all own discs for images
     TransferPlan halo_plan_;
     /// Neighbours except this rank itself, which is its own neighbour in a periodic box
     std::vector<int> other_partners_;
-    std::vector<std::size_t> halo_offsets_; ///< where each partner's discs begin
+    std::vector<std::size_t> halo_offsets_; ///< where each partner's discs begin in `discs_`
     std::vector<HaloPart> more_halo_;
     std::vector<std::uint8_t> is_shown_; ///< whether a neighbour has the own disc in its halo
 };

@@ -54,7 +54,7 @@ public:
     int owner(double x) const;
 
     /// The other ranks, ascending, whose strips have points within `reach` >= 0 of the strip of
-    /// `rank`. Cost: the number of strips within reach.
+    /// `rank`. The cost is proportional to the number of strips within reach.
     std::vector<int> neighbours_within(int rank, double reach) const;
 
     friend bool operator==(const Strips&, const Strips&) = default;

@@ -94,7 +94,7 @@ std::vector<std::size_t> transfer_images(NeighbourExchange& exchange, const Tran
 /// Appends the images of own discs that a single rank needs in its own halo.
 void append_images(const TransferPlan& plan, DiscStates& values, int n_threads);
 
-/// Removes the discs that have been sent, and fills the gaps with discs from the end.
+/// Removes the elements of `values` that have been sent, and fills the gaps with the last ones.
 template <class Values> void remove_leaving(const TransferPlan& plan, Values& values) {
     std::vector<LocalIndex> all;
     for (const std::vector<LocalIndex>& leaving : plan.leaving)

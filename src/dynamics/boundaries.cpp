@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// How long a small bounce of a resting disc takes, at most an eighth of a period (`rest_times_`).
+/// The duration of a small bounce of a resting disc (`rest_times_`), at most an eighth of a period.
 double rest_time_at(const Boundary& side, const ContactGuard& guard, double acceleration,
                     double sway, double period, double radius) {
     if (sway != 0)
@@ -97,7 +97,7 @@ Extent Boundaries::walls_between(double begin, double end) const {
 }
 
 /// With drag a frame and a clock that start at `time` describe the same flight as the present ones,
-/// because F(s + d) - F(s) - F'(s) d = F(d / (1 - c s)).
+/// because F(s + d) - F(s) - F'(s) d = F(d / (1 - c s)). The contact is computed with these.
 double Boundaries::delay_of(const Approach& approach, double time) const {
     const auto& [distance, rate, pull] = approach;
     if (drag_ == 0 || pull == 0) return fall_delay(distance, rate, pull);
@@ -177,7 +177,7 @@ void Boundaries::reverse(DiscState& disc, Axis axis, const Body& body, double* s
 }
 
 /// The acceleration that presses a disc at rest against the side. If it changes in time, this is
-/// the larger of its values now and at the end of a contact.
+/// the larger of its values at `time` and at the end of a small bounce (`rest_times_`).
 double Boundaries::pressure_at(std::size_t side, double time) const {
     const double sign = sign_of(side), steady = -sign * pull_at(side);
     if (!sways_along(side)) [[likely]]

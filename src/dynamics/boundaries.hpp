@@ -45,15 +45,15 @@ public:
         return meeting(disc, axis, body).time;
     }
     /// Carries out the collision at `time` = wall_time(disc, axis, body) in the event-driven
-    /// method. `then` is the body at that time. Here and below, `spin` is null if discs do not
-    /// turn.
+    /// method. `body` is for the time of the state, `then` for `time`. Here and below, `spin` is
+    /// null if discs do not turn.
     Loss bounce(DiscState& disc, Axis axis, double time, const Body& body, const Body& then,
                 double* spin) const;
     /// Returns false only if the disc meets no wall before `time`, with an allowance of `margin`
     /// for rounding.
     bool may_meet(const DiscState& disc, double time, double margin, const Body& body) const;
 
-    /// The side that the disc flies to along `axis`; its velocity there must not be 0.
+    /// The side that the disc flies to along `axis`; its velocity along this axis must not be 0.
     static std::size_t side_ahead(const DiscState& disc, Axis axis) {
         return 2 * static_cast<std::size_t>(axis) +
                (velocity_of(disc, static_cast<std::size_t>(axis)) < 0 ? 0 : 1);
@@ -156,7 +156,7 @@ private:
         return velocity - fall_.sway().at(1 - side / 2, time).speed;
     }
     double pressure_at(std::size_t side, double time) const;
-    /// The sign, 1 or -1, of the tangent t of rubbing.hpp along +x or +y.
+    /// 1 if the tangent t (rubbing.hpp) at this side points along +x or +y, -1 if the other way.
     static double sign_along(std::size_t side) { return side == 0 || side == 3 ? 1 : -1; }
 
     std::array<Boundary, 4> sides_;
@@ -172,7 +172,7 @@ private:
     std::array<double, 2> pull_, sways_;
     FallingFrame fall_;
     std::array<Oscillation, 4> oscillations_{};
-    /// For each side, how long a small bounce of a resting disc takes; 0 if nothing there changes
+    /// For each side, how long a small bounce of a resting disc takes; 0 if nothing oscillates
     std::array<double, 4> rest_times_{};
     std::array<SurfaceTable, 4> surfaces_{};
 };

@@ -37,7 +37,7 @@ CARROM_DEVICE inline double since_collision(const DiscState& disc, double time) 
 
 class ContactGuard {
 public:
-    /// A collision is guarded if two discs approached by less than this share of their distance.
+    /// A collision is guarded below this approach since the last one, relative to the sum of radii.
     static constexpr double pair_share = 1e-6;
     /// The same limit for a disc and its mirror image behind a wall or a fixed body.
     static constexpr double wall_share = 1e-4;
@@ -60,7 +60,7 @@ public:
     }
 
     /// The smallest speed at which a disc leaves a wall to which the acceleration `pull` presses
-    /// it. At this speed the disc is back after the duration of a contact.
+    /// it. At this speed the disc is away so long that its next collision is just not guarded.
     double least_departure(double pull, double radius) const {
         if (!(pull > 0)) return 0;
         return contact_time_ > 0 ? 0.5 * pull * contact_time_
@@ -73,7 +73,7 @@ public:
     }
 
     /// The energy loss of a collision in which restitution would take `energy`. A guarded collision
-    /// spares this energy; at a contact at rest, 0 counts as spared.
+    /// spares this energy; at a contact at rest, the spared energy counts as 0.
     CARROM_DEVICE Loss loss(double energy, double squared_speed, bool is_guarded) const {
         if (!is_guarded) return {energy, 0};
         return {0, squared_speed > rest_speed_ * rest_speed_ ? energy : 0};

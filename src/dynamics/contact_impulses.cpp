@@ -13,13 +13,13 @@ namespace {
 /// Factor of over-relaxation, which carries forces through a heap in fewer sweeps. With friction,
 /// sweeps with a larger factor do not converge.
 constexpr double relaxation = 1.3;
-/// Sweeps end when no velocity changes by more than this share of g T.
+/// Sweeps end when contact velocities change by at most this share of g times the sync interval.
 constexpr double small_change = 0.005;
-/// The largest number of sweeps for n contacts is this number plus the square root of n. A sync may
-/// end before the solution is reached, because the next sync continues from its impulses.
+/// The largest number of sweeps for n connected contacts is this plus the square root of n. A sync
+/// may end before the solution is reached, because the next sync continues from its impulses.
 constexpr double sweeps_at_most = 20;
-/// The number of sweeps for flows. There contacts change from sync to sync, so the last impulses
-/// are a poor start, and collisions due to wrong impulses take longer than more sweeps.
+/// The same number for flows (may_flow_on). There contacts change from sync to sync, so the last
+/// impulses are a poor start, and collisions due to wrong impulses take longer than more sweeps.
 constexpr double sweeps_of_flow = 400;
 
 } // namespace
@@ -38,7 +38,7 @@ struct ContactImpulses::Body {
 struct ContactImpulses::Contact {
     std::uint32_t a = 0, b = 0; ///< indices of bodies; for a fixed body b is the last index
     std::uint32_t part = 0;
-    std::int64_t body = -1; ///< LastingContact::body
+    std::int64_t body = -1; ///< number of the fixed body, as LastingContact::body
     double nx = 0, ny = 0;
     double friction = 0, velocity = 0;
     double approach = 0; ///< the largest allowed speed of approach

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact dynamics at a sync: impulses that keep slow discs from colliding until the next sync.
 //
-// A disc falls by g T^2 / 2 between two syncs. A disc that lies on others would collide again
-// and again. Instead it gets at the sync the impulse that its supports give it in the whole time T,
-// as in the time-stepping scheme of contact dynamics (Moreau 1988; Jean, Comput. Methods Appl.
-// Mech. Eng. 177, 235 (1999)). With w = v + g T / 2, the mean velocity until the next sync,
-// impulses P at the contacts are such that
+// Between two syncs, a time T apart, a disc falls by g T^2 / 2. A disc that lies on others would
+// collide again and again. Instead it gets at the sync the impulse that its supports give it in the
+// time T, as in the time-stepping scheme of contact dynamics (Moreau 1988; Jean, Comput. Methods
+// Appl. Mech. Eng. 177, 235 (1999)). With w = v + g T / 2, the mean velocity until the next sync,
+// the impulses P at the contacts are such that
 //
 //   gap + T w_n >= rest gap,   P_n >= 0,   with equality in at least one of the two;
 //   |P_t| <= mu P_n, directed against the slip
 //
-// A disc of a heap then has w = 0: it flies up by g T^2 / 8 and is back at the next sync. All discs
-// of the heap move together, so they do not collide and cost nothing. Pairs that approach faster
-// than `lasting_speed` (effects.hpp) are not lasting contacts, and collide. Pairs with inaccurate
-// impulses collide, too, so that such an impulse never makes an overlap.
+// A disc of a heap then has w = 0: it flies up by g T^2 / 8, the rest gap, and is back at the next
+// sync. All discs of the heap move together, so they do not collide and cost nothing. Pairs that
+// approach faster than `lasting_speed` (effects.hpp) are no lasting contacts, and collide. Pairs
+// with inaccurate impulses collide, too, so that such an impulse never makes an overlap.
 //
 // Gauss-Seidel sweeps with over-relaxation go over the contacts from the lowest up. They end when
 // impulses have converged, or after the largest number of sweeps. Then discs in contact whose w is

@@ -56,7 +56,7 @@ struct BodyRow {
     std::string_view kind;    ///< "fixed disc", "segment", "polygon", "arc", or Container::name()
     std::uint32_t number = 0; ///< place in its list, from 1 on; 0 for the box's wall
     double x = 0, y = 0;      ///< its centre, or the mean of its corners if it has no centre
-    double length = 0;        ///< length of its line; both faces of a segment or an arc share it
+    double length = 0;        ///< length of its line; two faces of a segment or an arc count once
 
     std::string name() const; ///< name for messages, such as "fixed disc 3" or "the round wall"
 };

@@ -73,7 +73,7 @@ public:
     }
 
     /// From now on all radii are the scene's radii times `size`. Only for bodies that can grow, in
-    /// a scene whose radii do not grow at a rate.
+    /// a scene with a growth rate of 0.
     void resize(double size) {
         if constexpr (OfBodies::grow) bodies_.resize(size);
     }

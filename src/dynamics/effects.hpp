@@ -60,7 +60,7 @@ struct SurfaceContact {
                is_same_number(a.friction, b.friction);
     }
 };
-/// Consecutive ids, up to `end`, of the discs of one row of `discs.species`, counted from 0.
+/// Row `row`, from 0, of `discs.species` has the ids from the previous entry's `end` to `end` - 1.
 struct SpeciesRow {
     DiscId end = 0;
     std::size_t row = 0;
@@ -113,7 +113,7 @@ struct Surface {
 
 /// Discs that come in through an open side (scene/effects/inlets.cpp).
 struct Inlet {
-    double rate = 0;          ///< discs per time
+    double rate = 0;          ///< mean number of discs that come in per time
     double temperature = 0;   ///< kT of the gas outside, a velocity squared, for masses of 1
     std::int64_t species = 0; ///< a row of `discs.species`, counted from 1; 0 means any row
 
@@ -232,8 +232,8 @@ enum class ThermostatKind { none, kicks, andersen, langevin, rescale };
 
 struct Thermostat {
     ThermostatKind kind = ThermostatKind::none;
-    double strength = 0;    ///< strength xi^2 of the random kicks
-    double rate = 0;        ///< rate at which discs get new velocities, or rate of friction
+    double strength = 0;    ///< strength xi^2 of the random kicks, a velocity squared per time
+    double rate = 0;        ///< rate of new velocities (andersen), or of friction (langevin)
     double temperature = 0; ///< kT, a velocity squared, for masses of 1
     std::uint64_t seed = 3210;
 
@@ -249,9 +249,9 @@ struct Thermostat {
 /// Discs that propel themselves (scene/effects/activity.cpp). Time unit: see Effects.
 struct Activity {
     double speed = 0; ///< speed of a free disc whose direction does not change
-    double force = 0; ///< alternatively the same force for all discs, whatever their mass
-    double rotational_diffusion = 0; ///< the mean squared angle grows by twice this per time
-    double tumble_rate = 0;          ///< rate at which a disc takes a new random direction
+    double force = 0; ///< instead of a speed: the same force on all discs, whatever their mass
+    double rotational_diffusion = 0; ///< mean squared change of the angle per time, divided by 2
+    double tumble_rate = 0;          ///< how often per time a disc takes a new random direction
     std::uint64_t seed = 3210;
 
     bool is_on() const { return speed != 0 || force != 0; }

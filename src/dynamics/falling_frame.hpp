@@ -49,8 +49,8 @@ double dragged_fall(double rate, double clock);
 /// The derivative of F, s / (1 - c s).
 inline double dragged_fall_speed(double rate, double clock) { return clock / (1 - rate * clock); }
 
-/// Like fall_delay, for distance + velocity s + pull F(s), on drag's clock from now on. Contacts
-/// after drag has cut velocities to a hundredth are ignored, because a sync is earlier.
+/// Like fall_delay, for distance + velocity s + pull F(s), where drag's clock s shows 0 now.
+/// Contacts after drag has cut velocities to a hundredth are ignored, because a sync is earlier.
 double dragged_fall_delay(double distance, double velocity, double pull, double rate);
 
 /// The frame that falls with the discs, and its clock, which gives the times since the last sync.

@@ -15,8 +15,8 @@ namespace {
 /// A disc in the box may touch the body or one of its eight images in neighbouring boxes.
 constexpr std::uint32_t n_images = 9;
 
-/// The least slope at which a disc leaves the inner face of an arc, because a disc that flies along
-/// the face collides without end. The relative change of energy is at most 1e-12.
+/// The least ratio of normal to tangential velocity of discs that leave the inner face of an arc,
+/// because a disc along the face collides without end. Energy changes by a share of 1e-12 at most.
 constexpr double least_slope = 1e-6;
 
 /// The first time at which a distance with the initial `rate` and a constant acceleration `pull`
@@ -67,7 +67,7 @@ void FixedBodies::add_line(const Segment& segment, double slides) {
     bodies_.push_back({segment.x1, segment.y1, 0});
 }
 
-/// Ends of the scene's arcs do not slide. Ends of the box's arcs have `slides` -1, like its lines.
+/// Surfaces at ends of a scene's arcs rest; at ends of the box's arcs `slides` is -1, as for lines.
 void FixedBodies::add_arc(const Arc& arc, bool is_of_box) {
     Body face{arc.x, arc.y, arc.radius};
     face.is_arc = true;
@@ -180,8 +180,8 @@ template <class What> void FixedBodies::visit_cells(const Cells& cells, const Wh
 }
 
 /// The number of the touched image of the body; without periodic sides the number of the body.
-/// Images are numbered relative to the box that contains the centre (x, y) of the disc after its
-/// fall, so the number is the same in whichever box the disc's state is stored.
+/// Images are numbered relative to the box that contains the disc's centre (x, y) at the contact,
+/// so the number is the same in whichever box the disc's state is stored.
 std::uint32_t FixedBodies::code_of(const Entry& image, double x, double y) const {
     if (!periods_.are_any()) return image.body;
     const int dx = periods_.x == 0 ? 0 : image.x - static_cast<int>(std::floor(x / periods_.x));
@@ -334,7 +334,7 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     const double closing = std::fabs(outwards - normal);
     const bool is_guarded = guard_.holds_at_wall(since, closing, turning.radius);
     double away = outwards + (is_guarded ? 1 : restitution) * closing;
-    // A disc that is pulled back leaves so fast that it stays away for a contact time, as at walls.
+    // A disc that is pulled back leaves so fast that its next collision is unguarded, as at walls.
     double pull = -(nx * pull_[0] + ny * pull_[1]);
     const auto speed_along = [&] {
         return nx * (disc.vy + pull_[1] * time) - ny * (disc.vx + pull_[0] * time);

@@ -63,7 +63,7 @@ struct BodyTouch {
 
 class FixedBodies {
 public:
-    /// `effects` have times in micro-steps; before discs grow none is larger than `largest_radius`.
+    /// `effects` have times in micro-steps. `largest_radius` is for discs that have not grown yet.
     FixedBodies(const Box& box, double largest_radius, const Effects& effects);
 
     /// The first body that a disc of this size meets within these times. If the disc meets two
@@ -84,7 +84,7 @@ public:
 
     struct Overlap {
         double depth = 0;
-        std::uint32_t body = BodyContact::no_body; ///< the same for all images of a body
+        std::uint32_t body = BodyContact::no_body; ///< its number, for all its images
     };
     /// The body with which a disc of this radius at (x, y) in the box overlaps most, if the overlap
     /// is more than `least`; otherwise, or without bodies, `no_body`.
@@ -173,7 +173,7 @@ private:
     double largest_radius_; ///< largest radius of a disc before it grows
     /// Fixed discs; then the line and the two ends of each segment, edge and arc
     std::vector<Body> bodies_;
-    std::vector<std::uint32_t> first_bodies_; ///< first body of each row after the fixed discs
+    std::vector<std::uint32_t> first_bodies_; ///< index of each row's first body, after the discs
     std::vector<BodyRow> rows_of_bodies_;
     CellAxis columns_, rows_;
     double margin_ = 0;

@@ -65,7 +65,7 @@ struct LastingContactFinder::Search {
     std::span<const double> radii;
     double widest_gap, largest_radius;
     CellLine columns, rows;
-    std::vector<std::uint32_t> starts, sorted; ///< sorted: discs in the order of their cells
+    std::vector<std::uint32_t> starts, sorted; ///< where cells begin in `sorted`; discs by cell
     std::vector<LastingContact> found;
 
     Search(const Box& box, const Effects& effects, std::span<const HeapDisc> all,
@@ -215,7 +215,7 @@ void LastingContactFinder::add_fixed_bodies(Search& search) const {
     const std::size_t n_turning = Container(fixed_bodies.shape, box_).segments().size();
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const Segment& line = lines[k];
-        // The surface of the box's wall moves in the direction of its arcs.
+        // The surface of the box's own wall moves counterclockwise, on segments as on arcs.
         contact.velocity = fixed_bodies.surface.velocity * (k + n_turning < lines.size() ? -1 : 1);
         ++contact.body;
         search.in_rectangle(std::min(line.x0, line.x1) - reach, std::max(line.x0, line.x1) + reach,

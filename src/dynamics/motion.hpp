@@ -135,7 +135,7 @@ public:
         const Encounter<double> met = space_.see(p, q, q.x - p.x, q.y - p.y, p.tau);
         return {met.ex, met.ey};
     }
-    /// The separation from p to q, whose states are at `time` or earlier.
+    /// The separation from p to q at `time`; their states are at this time or earlier.
     CARROM_DEVICE Separation separation_at(const DiscState& p, const DiscState& q,
                                            double time) const {
         const Encounter<double> met = space_.see(p, q, q.x_at(time) - p.x_at(time),

@@ -29,9 +29,9 @@ namespace carrom {
 struct WallImpulse {
     static constexpr std::size_t n_sides = 4;
 
-    std::size_t side = 0;              ///< side; numbers from `n_sides` on are rows of fixed bodies
-    double normal = 0;                 ///< impulse away from the side
-    double along = 0;                  ///< impulse along the side, in the direction of its axis
+    std::size_t side = 0;              ///< number of the side, or `n_sides` plus a fixed body's row
+    double normal = 0;                 ///< impulse on discs, away from the side
+    double along = 0;                  ///< impulse on discs along the side, towards +x or +y
     double energy = 0;                 ///< change of the discs' kinetic energy
     double ix = 0, iy = 0, torque = 0; ///< as in WallEvent; only for fixed bodies
 };
@@ -53,7 +53,7 @@ struct SyncDiscs {
     std::span<DiscState> discs = {}; ///< includes departed discs, which effects do not change
     /// Spins in the order of `discs`; empty unless discs are rough
     std::span<double> spins = {};
-    std::span<double> directions = {}; ///< angles along the discs; empty unless discs are active
+    std::span<double> directions = {}; ///< angles in the order of `discs`; empty unless active
     /// Radii in the order of `discs`; empty unless discs exchange them
     std::span<double> radii = {};
     /// Number of syncs since the scene's start, this one included
@@ -117,10 +117,10 @@ public:
 struct Arrival {
     std::size_t side = 0;
     DiscId first = 0, end = 0; ///< range of ids that the disc may have
-    double flown = 0;          ///< time since the disc arrived
-    double across = 0;         ///< place of arrival along the side, from 0 to 1 of the free length
-    bool has_low_wall = true, has_high_wall = true; ///< whether the side ends at walls
-    double inwards = 0, along = 0;                  ///< velocity of arrival, for a mass of 1
+    double flown = 0;          ///< time from the disc's arrival to the sync
+    double across = 0;         ///< place of arrival as a share of the free length of the side
+    bool has_low_wall = true, has_high_wall = true; ///< whether the side's ends are at walls
+    double inwards = 0, along = 0;                  ///< velocity at arrival, for a mass of 1
 };
 
 /// The numbers of arrivals that came in, and of arrivals that were not let in.

@@ -28,7 +28,7 @@ struct AdmissionGround {
     double largest_radius;
     bool have_pairs; ///< if false, discs pass through each other and never block a place
     std::span<const DiscState> own, departed; ///< discs of this rank
-    const SideColumns& departed_columns;      ///< their side columns, in the same order
+    const SideColumns& departed_columns;      ///< side columns of `departed`, in the same order
     /// Whether no fixed body is at `from`, at `to` or in the way of a straight flight between them,
     /// which takes `time` in micro-steps.
     std::function<bool(const DiscState& from, const DiscState& to, double time)> has_room;
@@ -41,8 +41,8 @@ struct Admission {
 
 /// Each arrival gets the departed disc with the lowest id in its range that no earlier arrival has.
 /// If another disc or a fixed body is at the place of entry, this disc does not come in. If only
-/// the place to which it has flown since then is blocked, or a fixed body is in between, it stays
-/// at the place of entry. **Collective.**
+/// the place that it would have reached by the sync is blocked, or a fixed body is in between, it
+/// stays at the place of entry. **Collective.**
 Admission admit(std::span<const Arrival> arrivals, const AdmissionGround& ground);
 
 } // namespace carrom

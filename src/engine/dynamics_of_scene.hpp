@@ -34,7 +34,7 @@ inline ContactFormula contact_formula_of(const SceneParameters& scene) {
     return scene.contraction ? ContactFormula::naive_contracted : ContactFormula::naive;
 }
 
-/// The dynamics with the scene's numbers.
+/// The dynamics with the scene's parameters, converted to micro-steps.
 template <class D> D dynamics_of(const SceneParameters& scene) {
     return D(scene.box, scene.radius, per_micro_step(scene), contact_formula_of(scene));
 }

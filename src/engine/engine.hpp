@@ -31,7 +31,7 @@ namespace carrom {
 /// the halo, all sorted into cells.
 struct LocalView {
     Population population;
-    const CellGrid* grid = nullptr; ///< its reach is at least a diameter and local_view's `reach`
+    const CellGrid* grid = nullptr; ///< its reach is at least a diameter, and at least local_view's
     const Domains* domains = nullptr;
     double time = 0;   ///< time since the last sync
     Frame frame;       ///< the frame in which the discs' coordinates are stored
@@ -59,7 +59,7 @@ public:
 
     /// The GPU on which the discs are moved; its name is empty if there is none.
     virtual DeviceFacts device() const { return {}; }
-    /// Extra bytes a disc where discs are clustered, compared with a homogeneous gas. Equal on all
+    /// Extra bytes per disc if discs are clustered, compared with a homogeneous gas. Equal on all
     /// ranks.
     virtual double bytes_for_crowds() const { return 0; }
     /// Counts of windows and blocks of all ranks. **Collective.**
@@ -109,7 +109,7 @@ public:
     }
     /// Starts sums of energy lost in collisions; `bound` exceeds each sum. Call it before any step.
     void begin_loss_sums(double bound) { losses_ = no_losses_ = LossSums(bound); }
-    /// The integral over the flights that the sums of stress do not contain yet.
+    /// Coefficients of the integral over flights that the sums of stress do not contain yet.
     virtual FlightIntegral flight_integral() const { return {}; }
     /// From now on a sync in a periodic box appends to `crossings` the numbers of box lengths by
     /// which own discs are brought back, until `forget_crossings_in` is called.

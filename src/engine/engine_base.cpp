@@ -85,7 +85,7 @@ template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() con
 template <class Dynamics> void EngineBase<Dynamics>::distribute() {
     set_departed_aside();
     discs_.rebalance(time_, tuning_.rebalance_above, {discs_.n_own(), 0});
-    redistribute_now(0, Covered::domain); // cells show where discs are clustered
+    redistribute_now(0, Covered::domain); // these cells show where discs are clustered
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::set_departed_aside() {
@@ -157,7 +157,7 @@ void EngineBase<Dynamics>::refuse_long_flights([[maybe_unused]] double speed) co
     }
 }
 
-/// Stops at the latest at the end of the step that contains the next sync: a stop there is free.
+/// Stops at the latest at the end of the step with the next sync, because that stop costs no time.
 template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_t last_step) {
     const std::int64_t step_after_sync = (last_sync() + sync_every_ + micro_steps_ - 1) /
                                          micro_steps_;

@@ -136,8 +136,8 @@ protected:
     double flown_before_ = 0;
     double redistributed_time_ = 0; ///< time of the last migration, relative to the last sync
     double largest_speed_ = 0;      ///< upper bound of the speed of own discs
-    double travel_speed_ = 0; ///< bound of the speed since the last migration; equal on all ranks
-    RankWork rank_work_;      ///< work since the last comparison of ranks
+    double travel_speed_ = 0; ///< bound of all speeds since the last migration; equal on all ranks
+    RankWork rank_work_;      ///< this rank's work since the loads of ranks were last compared
     PhaseClock phases_;
 
 private:
@@ -164,7 +164,7 @@ private:
     /// between syncs, because a redistribution would make the rest of a window useless.
     bool windows_pass_stops_ = false;
     bool is_redistributed_ = true; ///< whether discs were redistributed since the last stop
-    /// Greatest common divisor of the distances between stops since the last sync; 0 at first
+    /// Greatest common divisor of the micro-steps between stops since the last sync; 0 at first
     std::int64_t stop_interval_ = 0;
 };
 

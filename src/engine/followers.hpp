@@ -39,7 +39,7 @@ public:
 
 private:
     std::vector<Event> room_;
-    std::size_t n_ = 0, n_rooms_ = 0; ///< `n_rooms_` is kept because size() takes a division
+    std::size_t n_ = 0, n_rooms_ = 0; ///< `n_rooms_` is kept because size() needs a division
 };
 
 /// The followers of events of one kind. Followers get events soon after they happen, so that memory

@@ -48,7 +48,7 @@ struct StressSums {
     void add_flight(double mass, const DiscState& disc, const FlightIntegral& integral);
 
     ExactSum xx, xy, yy;
-    ExactSum energy; ///< the integral of the sum of m v^2
+    ExactSum energy; ///< the time integral of the sum of m v^2
 };
 
 // Terms are rounded to whole units. After a number of less than 2^51 units is added to

@@ -41,7 +41,7 @@ public:
             if (DiscSource* const its = effect->source()) return its;
         return nullptr;
     }
-    /// The largest distance of pairs that an effect needs at this sync, in the scene's sizes.
+    /// The largest distance of pairs that effects need at this sync, divided by Engine::size.
     double reach(std::int64_t n_syncs) const;
     /// Call this when all states are at the time of the sync. Either there is no halo, or the halo
     /// is as deep as the reach that `visit_near_pairs` searches. Adds to `energy_given()` and to

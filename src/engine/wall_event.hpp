@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A collision of a disc with a side of the box or a fixed body, and the impulse and energy that the
 // disc gained. Engines record it only if a measurement follows walls. Lasting contacts give such
-// events at syncs, one event for all discs that press a side or a body.
+// events at syncs, one event for all discs that press on a side or a body.
 #pragma once
 
 #include <cstddef>

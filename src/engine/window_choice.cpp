@@ -11,7 +11,7 @@ namespace {
 // Times in nanoseconds on one core, with discs in cache. If discs are in main memory, all times are
 // some 1.2 times as long.
 constexpr double disc = 30;     ///< time for each disc in a window of any length
-constexpr double partner = 1.3; ///< time for each disc in a square with edges of one reach
+constexpr double partner = 1.3; ///< time for each partner in a square with edges of one reach
 /// Time for a new prediction of a disc that was hit inside the window
 constexpr double hit = 85;
 /// Time for each partner of such a disc in a square with edges of one reach

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The cells of a run of the whole box, and of discs that lie in levels by size. Each disc has one
 // slot. Cells beyond periodic sides contain ghosts: slots for images of discs. The filter
-// (flight_filter.hpp) tests the ghost's own flight, but its state is the disc's state.
+// (flight_filter.hpp) tests the ghost's own flight; the predicate uses the state of its disc.
 #pragma once
 
 #include <cstdint>
@@ -98,7 +98,7 @@ private:
     std::vector<LocalIndex> indices_;
     std::vector<std::uint32_t> starts_;
     std::vector<Ghost> ghosts_;
-    /// For each slot, the index of its ghost and of its disc's first ghost, or `none`
+    /// For each slot, the indices of the ghost in it and of the first ghost of its disc, or `none`
     std::vector<std::uint32_t> ghost_at_, first_ghost_;
     std::vector<LocalIndex> listed_;        ///< each disc of the box once
     std::vector<std::uint32_t> sorted_;     ///< indices in `listed_`, in the order of the cells

@@ -20,7 +20,7 @@ namespace carrom {
 
 namespace {
 
-/// Below this number of collided discs, threads cost more time than they save.
+/// If fewer discs have collided in a commit, threads cost more time than they save.
 constexpr std::size_t least_hits_for_threads = 4096;
 
 /// The settings from which windows are chosen, equal on all ranks. **Collective.**

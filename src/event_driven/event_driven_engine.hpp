@@ -46,14 +46,14 @@ struct BlockTuning {
     bool notes_work = false; ///< whether work is recorded for `take_work()`
 };
 
-/// The work for each disc of a run, as a share of the `work_unit` units of work for a collision.
+/// The work for each disc of a run, relative to the work for a collision, which is `work_unit`.
 inline constexpr double work_of_disc = 0.14;
 inline constexpr std::uint64_t work_unit = 100;
 
 /// The work of one block run, for studies of how threads share a window.
 struct BlockWork {
     std::uint64_t n_carried = 0; ///< collisions carried out, including those of halo discs
-    std::uint64_t n_seen = 0;    ///< number of discs, including halo discs
+    std::uint64_t n_seen = 0;    ///< number of discs, including halo discs and ghosts
     bool is_repeated = false;    ///< the block had run before in this window
 };
 
@@ -176,7 +176,7 @@ private:
 
     BlockTuning block_tuning_;
     std::vector<SizeLevel> levels_;
-    double jumped_ = 0; ///< shift of the frame since the last migration, across the strips' cuts
+    double jumped_ = 0; ///< largest shift of the frame since the last migration, across the cuts
     WindowPolicy policy_;
     double first_packing_ = 0;
     double runaway_speed_ = 0; ///< speed that ends the run (runaway.hpp)

@@ -60,7 +60,7 @@ private:
     bool before_at_equal_times(const Event& a, const Event& b) const {
         if (a.generation != b.generation) return a.generation < b.generation;
         if (a.p != b.p && discs_[a.p].id != discs_[b.p].id)
-            return discs_[a.p].id < discs_[b.p].id; // equal for two images of one disc
+            return discs_[a.p].id < discs_[b.p].id; // ids are equal for two images of one disc
         if (is_wall(a.q) || is_wall(b.q)) return is_wall(a.q) && (!is_wall(b.q) || a.q < b.q);
         return discs_[a.q].id < discs_[b.q].id;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rejects most partners in a block run, many lanes at a time. It finds the flights, in some runs of
-// slots, that might touch a given flight before the window ends. It may keep pairs that never
-// touch, but it never loses a pair that does.
+// Rejects most possible partners of a flight in a block run, many at a time. The filter finds the
+// flights, in some runs of slots, that might touch a given flight before the window ends. It may
+// keep pairs that never touch, but it never loses a pair that does.
 #pragma once
 
 #include <cstddef>

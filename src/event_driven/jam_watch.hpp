@@ -6,8 +6,8 @@
 // grow as 1 / (t_J - t), because discs are compressed without loss. So the collision rate grows as
 // 1 / (t_J - t)^2, and no run reaches t_J. Two consequences are used:
 //   - if collisions are 4 times as frequent as a time dt ago, discs have room for another time dt;
-//   - if they are more than 3 times as frequent in one of two equal bins of time as in the bin
-//     before, discs have no room for another bin.
+//   - if they are more than 3 times as frequent in a bin of time as in the bin of the same length
+//     before it, discs have no room for another bin.
 // Few collisions are no evidence and cost little, so both rules need a minimal number of collisions
 // in a bin. If collisions lose energy, speeds grow less and the collision rate grows as 1 / (t_J -
 // t); then the second rule ends the run.
@@ -62,7 +62,7 @@ private:
     double sync_ = 0;  ///< time of the last sync, since the run's start
     double begin_ = 0, end_ = std::numeric_limits<double>::infinity();
     double safe_until_ = 0;
-    double enough_ = 0; ///< fewer collisions in a bin never mean a jam
+    double enough_ = 0; ///< a bin with fewer collisions never shows a jam
     /// More collisions than this in the present bin mean a jam
     double limit_ = std::numeric_limits<double>::infinity();
     double n_collisions_ = 0;

@@ -179,7 +179,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::record_rollback() {
     policy_.note(rollback);
 }
 
-/// The share of additional discs in this rank's blocks if their halo were one reach deeper.
+/// The relative growth of the area of this rank's blocks and halos if halos were one reach deeper.
 template <class Dynamics> double EventDrivenEngine<Dynamics>::price_of_reach() const {
     const GridGeometry& geometry = discs_.grid().geometry();
     const CellBlock frame{0, geometry.n_columns, 0, geometry.n_rows};

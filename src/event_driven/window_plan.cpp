@@ -15,8 +15,8 @@ namespace carrom {
 
 namespace {
 
-/// A jam is reported if the largest speed rises by more than this factor between two syncs. From a
-/// dilute gas to the densest liquid growing discs become only some 30 times as fast.
+/// A jam is reported if the largest speed rises by more than this factor between two syncs. Discs
+/// that grow from a dilute gas to the densest liquid become only some 30 times as fast.
 constexpr double jam_heating = 64;
 /// Up to this number of discs, one block without a halo is fastest on one thread.
 constexpr double most_discs_alone = 30000;
@@ -100,7 +100,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
                  static_cast<std::int64_t>(safe));
 }
 
-/// Whether a single run can cover the whole box.
+/// Whether one run of the whole box is possible and fast: one rank, few discs, no tests' settings.
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone() const {
     const auto n = static_cast<double>(discs_.n_total());
     const bool is_few = tuning_.threads == 1 ||
@@ -127,7 +127,7 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     return needs;
 }
 
-/// Collisions per disc and time in the last window, or an estimate for the first one.
+/// Collisions per disc and micro-step in the last window, or an estimate for the first window.
 /// **Collective.**
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::collision_rate(const BlockNeeds& needs) const {
@@ -149,7 +149,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
     std::erase_if(stops_, [this](double stop) { return stop >= window_.end; });
 }
 
-/// The latest end of a window, if the run stops at `target`.
+/// The latest time at which the next window may end, if the next stop is `target`.
 template <class Dynamics> double EventDrivenEngine<Dynamics>::horizon(std::int64_t target) const {
     if (jam_watch_.is_on()) return std::min(time_of(target), jam_watch_.bin_end());
     return time_of(std::min(this->horizon_of(target), target + most_stops * this->stop_interval()));

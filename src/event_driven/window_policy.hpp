@@ -30,7 +30,7 @@ struct PlannedWindow {
 struct Rollback {
     double repeated = 0;         ///< number of repeated block runs, as a share of all blocks
     double waited = 0;           ///< extra time of the slowest rank, relative to its first runs
-    double price_of_reach = 0.1; ///< time for one more reach of halo, relative to the first runs
+    double price_of_reach = 0.1; ///< extra time of halos one reach deeper, relative to first runs
 };
 
 class WindowPolicy {
@@ -55,7 +55,7 @@ public:
     void record_end(double duration) { last_duration_ = duration; }
 
     double last_duration() const { return last_duration_; }
-    /// Collisions per disc and time in the last window.
+    /// Collisions per disc and micro-step in the last window.
     double collision_rate() const { return collision_rate_; }
     double speed_allowance() const { return setting_.speed_allowance; }
 
@@ -64,9 +64,9 @@ private:
 
     WindowSetting setting_;
     double collision_rate_ = 0;
-    double rate_to_expect_ = 0;   ///< the rate used for the choice; it falls only slowly
+    double rate_to_expect_ = 0;   ///< collision rate used for the choice; it falls only slowly
     double last_duration_ = 1;    ///< duration of the last window
-    double rounds_lately_ = 0.05; ///< running mean of the number of rounds
+    double rounds_lately_ = 0.05; ///< running mean of `n_rounds_` over windows
     double n_rounds_ = 0;         ///< number of rounds of repeated runs in the last window
     Rollback last_;               ///< sums over these rounds, and the price in the last one
     Caution caution_;

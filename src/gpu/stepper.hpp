@@ -21,7 +21,7 @@ struct DeviceWindow {
     Window window;
     double reach = 0; ///< reach of the window (reach_of)
     double speed = 0; ///< speed for which the reach is enough; a faster disc cuts the window short
-    double flown = 0; ///< flight time before the last sync that stress sums still lack
+    double flown = 0; ///< time of flights before the last sync, not yet in the stress sums
     double stress_scale = 0; ///< ExactSum::scale of the sums of stress; 0: no stress is summed
 };
 

@@ -61,7 +61,7 @@ template <class D> struct World {
     Window window;
     std::uint32_t n = 0;
     double squared_window_speed = 0; ///< square of the speed for which the reach is enough
-    double flown = 0;        ///< flight time before the last sync that stress sums still lack
+    double flown = 0;        ///< time of flights before the last sync, not yet in the stress sums
     double stress_scale = 0; ///< 0: no stress is summed
 
     DiscState* discs = nullptr;
@@ -70,7 +70,7 @@ template <class D> struct World {
     LocalIndex* partner = nullptr;
     std::int16_t *image_x = nullptr, *image_y = nullptr;
     std::uint8_t* micro = nullptr;
-    std::uint8_t* taken = nullptr;      ///< the disc takes part in an event of this micro-step
+    std::uint8_t* taken = nullptr;      ///< 1: the disc takes part in an event of this micro-step
     std::uint32_t* is_listed = nullptr; ///< whether the disc is in `changed`
     LocalIndex *active = nullptr, *changed = nullptr;
     LocalIndex* waiting[2] = {};

@@ -17,7 +17,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// A few runs show how much roundings change the discs. In a correct program the changes may be
 /// larger than in these runs by this factor.
 constexpr double spread_margin = 1000;
-/// This factor for a single step that starts from known numbers.
+/// The same factor as spread_margin for one step from the student's numbers of the step before.
 constexpr double step_margin = 20;
 /// Number of runs from the student's numbers; all but the first vary the last digits.
 constexpr std::uint64_t own_runs = 6;

@@ -86,7 +86,7 @@ private:
 };
 
 /// Finds the smallest even number of rows with enough sites. It is even, because a box that is
-/// periodic along y needs this.
+/// periodic along y needs an even number.
 class RowSearch {
 public:
     RowSearch(const SceneParameters& scene, const Communicator& ranks)

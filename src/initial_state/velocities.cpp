@@ -47,7 +47,7 @@ void add_streams(const SceneParameters& scene, std::vector<InputDisc>& discs) {
 namespace {
 
 /// Momentum and energy of discs. Masses are divided by the heaviest one, so that sums of any masses
-/// stay in range.
+/// stay in the range of doubles.
 class Motion {
 public:
     Motion(const SceneParameters& scene, const std::vector<InputDisc>& discs,

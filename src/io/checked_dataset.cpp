@@ -66,10 +66,10 @@ void check_chunk_of(hid_t creation, const std::string& name, std::size_t bytes_p
     if (bytes > largest_chunk) throw FileError(name + " has larger chunks than 256 MiB");
 }
 
-/// Limits for links and nested groups. Carrom's files have dozens of links, or one a table column.
+/// Limits for links and nested groups. Carrom's files have dozens of links, or one per column.
 constexpr std::size_t most_objects = 100000, deepest_group = 16;
 
-/// Returns the result of a call. If the call has failed, reports that the file is damaged.
+/// Returns the result of a call. Throws FileError "is damaged" if the call has failed.
 template <class Result> Result sound(Result result, const std::string& name) {
     return checked(result, "is damaged: " + name);
 }
@@ -146,7 +146,7 @@ void refuse_other_files(hid_t file, const std::string& path) {
         if (std::error_code error; !std::filesystem::exists(part, error) && !error)
             continue; // a missing part is reported by the function that needs it
         try {
-            check_heaps(part); // the part must be a plain file
+            check_heaps(part); // fails unless the part is a plain file
             const File opened(sound(H5Fopen(part.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), name));
             if (!parts_named_in(opened.id()).empty())
                 throw FileError("has numbers in further files");

@@ -10,8 +10,8 @@
 //
 // Rank 0 makes the file and reserves its space on disk. Then ranks write discs by ranges of ids, at
 // places that HDF5 reports, or together through MPI-IO. Every rank reads its range through MPI-IO.
-// Cost: 80 bytes a disc on disk; a disc of another rank's range is sent once; 8 bytes a disc of
-// memory, 80 more for collective transfers. A side column: 8 bytes a disc on disk, 24 of memory.
+// Cost for each disc: 80 bytes on disk; 8 bytes of memory, 80 more for collective transfers; it is
+// sent once if another rank writes it. A side column adds 8 bytes on disk, 24 of memory.
 #pragma once
 
 #include <cstdint>
@@ -75,7 +75,7 @@ using DifferenceFrom = std::function<std::string(const CheckpointHeader& there)>
 
 /// Settings for writing the data of discs.
 struct WriteSettings {
-    int n_threads = 1;          ///< threads that only pack; the calling thread writes, then packs
+    int n_threads = 1;          ///< additional threads, which convert discs to bytes
     bool is_collective = false; ///< whether MPI-IO chooses ranks that write for all (aggregators)
 };
 

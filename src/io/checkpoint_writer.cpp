@@ -64,7 +64,7 @@ private:
     struct sigaction before_{};
 };
 
-/// This rank's packed rows, in one buffer for each target.
+/// This rank's rows as bytes of the file, in one buffer for each data set.
 struct Batch {
     std::uint64_t first = 0, n_rows = 0;
     std::vector<std::vector<std::byte>> buffers;
@@ -172,8 +172,8 @@ void add(std::span<const DiscState> discs, const SideOfPieces& side, StateSums& 
     });
 }
 
-/// Converts a piece to the targets' bytes, appends them to the batch, and adds to `sums`. New
-/// threads share this work. The calling thread first calls `first_of_all`, which writes another
+/// Converts a piece's discs to the targets' bytes, appends these to the batch, and adds to `sums`.
+/// New threads share this. The calling thread first calls `first_of_all`, which writes another
 /// batch, and then takes part.
 template <class Act>
 void pack(std::span<const DiscState> piece, std::uint64_t first, const SideOfPieces& side,

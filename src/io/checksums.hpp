@@ -67,9 +67,9 @@ struct DiscData {
 struct Checksums {
     std::vector<DiscData> data;
     StateHash others; ///< checksum of all other bytes of the file
-    ByteRange place;  ///< where the text is in the file
+    ByteRange place;  ///< where the text of checksums is in the file
 
-    /// Returns the text. Its length does not depend on the checksums.
+    /// Returns the text of checksums. Its length does not depend on their values.
     std::string text() const;
     /// The ranges of bytes that the checksum `others` does not cover.
     std::vector<ByteRange> left_out() const;

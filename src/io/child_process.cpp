@@ -20,7 +20,7 @@ namespace carrom {
 namespace {
 
 constexpr rlim_t most_seconds = 10, most_memory = rlim_t{4} << 30;
-/// Time limit for a process that waits without using a processor
+/// Limit of wall time, for a child process that waits without using a processor
 constexpr unsigned patience_seconds = 50;
 constexpr time_t least_of_loop = 3;        ///< seconds of processor time; undamaged files take less
 constexpr std::size_t longest_text = 4000; ///< bytes; a pipe accepts them in one write

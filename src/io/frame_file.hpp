@@ -24,7 +24,7 @@ struct FileSummary : RecordedSystem {
     /// with discs and walls, computed fields, images, then side columns (core/side_columns.hpp).
     std::vector<std::string> columns;
     std::uint64_t n_rows = 0;         ///< number of rows: discs, or collisions
-    std::size_t bytes_per_number = 8; ///< size of a trajectory's positions and velocities
+    std::size_t bytes_per_number = 8; ///< bytes of each position and velocity
     std::vector<std::int64_t> steps;  ///< the steps of the frames
     std::string state_hash;           ///< hash of a checkpoint; empty for other files
     std::vector<std::int64_t> gaps;   ///< the first and last step of each gap of a log

@@ -40,7 +40,7 @@ namespace {
 
 // Longer than any scene, which has at most 2^26 characters
 constexpr std::size_t longest_text = std::size_t{1} << 28;
-constexpr unsigned most_links = 64; // up to this number a group's header contains its links
+constexpr unsigned most_links = 64; // a group's header contains up to so many links
 
 /// Collects the two innermost entries of the error stack, which contain the system's text.
 herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {

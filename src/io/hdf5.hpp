@@ -83,7 +83,7 @@ Space space(std::span<const hsize_t> dimensions);
 void select(const Space& space, std::span<const hsize_t> start, std::span<const hsize_t> count);
 
 enum class Access { read, write };
-/// Opens a file. If it joins other files, these must be plain files below its folder.
+/// Opens a file. If it is read and joins other files, these must be plain files below its folder.
 File open_file(const std::string& path, Access access);
 /// Opens a file without checking the files that it joins.
 File open_alone(const std::string& path, Access access);
@@ -176,7 +176,7 @@ void read_rows(hid_t dataset, const RowRange& rows, hid_t type, void* numbers);
 /// may let a few of them write large pieces for all.
 enum class Transfer { independent, collective };
 
-/// Writes this rank's rows of a data set, which may be none. **Collective** if `transfer` is so.
+/// Writes this rank's rows of a data set, or none. **Collective** if `transfer` is collective.
 void write_rows(hid_t dataset, const RowRange& rows, hid_t type, const void* numbers,
                 Transfer transfer);
 

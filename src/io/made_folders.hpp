@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists the folders of a path that do not exist yet. When the list is destroyed, it removes the
-// ones that are then empty, so that a run that fails early leaves no empty folders. For one rank.
+// Lists the folders of a path that do not exist yet. When the list is destroyed, it removes those
+// that then exist and are empty, so that a failed run leaves no empty folders. For one rank.
 #pragma once
 
 #include <string>

@@ -2,7 +2,7 @@
 // Frames of a run at regular steps as H5MD, with discs in the order of their ids.
 //
 // Frames stream through rank 0 in slabs of ids. So a kill does not damage them, and they can be
-// read during the run (SegmentedFile), but one rank's speed to the disk limits them. An XDMF
+// read during the run (SegmentedFile), but they are written only as fast as one rank can. An XDMF
 // description for ParaView and VisIt is written beside the file.
 #pragma once
 

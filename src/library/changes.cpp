@@ -3,8 +3,8 @@
 //
 // Both continue from the stored state as a restart from a checkpoint does, so they also have the
 // same bits on any number of ranks and threads. A changed disc starts anew at the present time. All
-// others keep their stored bits, so setting the present values changes nothing. Price: about the
-// time to set up a run of these discs, and the memory of a second run meanwhile.
+// others keep their stored bits, so setting a disc to its present values changes nothing. Cost:
+// about the time to set up a run of these discs, and the memory of a second run meanwhile.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -77,14 +77,14 @@ struct Change {
     bool is_on() const { return of_place || of_velocity || of_spin; }
 };
 
-/// The disc, relative to the box's lower left corner. Unchanged coordinates keep all bits.
+/// The disc with coordinates from the box's lower left corner; unchanged ones keep all bits.
 Disc counted_from_corner(Disc disc, const DiscState& shown, const Origin& origin) {
     disc.x = disc.x == shown.x - origin.x ? shown.x : disc.x + origin.x;
     disc.y = disc.y == shown.y - origin.y ? shown.y : disc.y + origin.y;
     return disc;
 }
 
-/// Compares a given disc with `shown`, its state in the box's frame, per micro-step.
+/// Compares a given disc with `shown`, its state in the box's frame with velocities per micro-step.
 Change change_of(const Disc& disc, const DiscState& shown, double unit, double spin) {
     return {disc.x != shown.x || disc.y != shown.y,
             disc.vx != shown.vx * unit || disc.vy != shown.vy * unit, disc.spin != spin};

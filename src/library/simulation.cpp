@@ -102,7 +102,7 @@ void Simulation::State::replace(RunStart start, std::optional<std::uint64_t> mos
                                fmt::format("{} pairs of discs would overlap, the deepest by {:.3g}",
                                            totals.overlapping_pairs, totals.deepest_overlap)}});
     }
-    checkpoints_.reset(); // the old checkpoints refer to the old run
+    checkpoints_.reset(); // this object refers to the old run
     run_ = std::move(next);
     read_images_often();
     if (wanted_checkpoints_) keep_checkpoints(*wanted_checkpoints_);

@@ -50,8 +50,8 @@ void BlockAverages::begin() {
     blocks_.clear();
 }
 
-/// Whether samples are taken at each step at first, as in long runs. If effects make the energy
-/// jump at syncs, they are not, because the interval of such samples is chosen to suit the syncs.
+/// Whether the first samples are taken at each step. This is so in long runs, unless effects make
+/// the energy jump at syncs, because the interval of samples is then chosen to suit the syncs.
 bool BlockAverages::begins_with_steps() const {
     return system_.last_step >= many_steps && !does_energy_jump(run_.scene.effects);
 }
@@ -107,12 +107,12 @@ void BlockAverages::add(std::int64_t step, const Block& block) {
     }
     blocks_.resize(most_blocks / 2);
     steps_per_block_ *= 2;
-    // Samples become rarer if a run continues beyond its planned end.
+    // Samples become rarer in runs that began with one per step or pass their planned end.
     if (2 * steps_per_sample_ <= most_steps_per_sample()) steps_per_sample_ *= 2;
 }
 
-/// The longest time between samples: the interval of
-/// syncs, or `usual_interval` if syncs are more frequent.
+/// The largest number of steps between samples: a sync interval, or
+/// `usual_interval` micro-steps if syncs are more frequent.
 std::int64_t BlockAverages::most_steps_per_sample() const {
     const std::int64_t apart = std::max(system_.sync_every, usual_interval);
     return (apart + system_.micro_steps - 1) / system_.micro_steps;
@@ -142,7 +142,7 @@ void BlockAverages::Block::keep(KeptNumbers& kept) {
     keep_tensor(kept, motion.stress);
 }
 
-/// After a restart averages begin anew if the scene's `averages_from` has changed.
+/// Stores or restores the averages. They begin anew if the scene's `averages_from` has changed.
 void BlockAverages::keep(KeptNumbers& kept) {
     kept.same(run_.scene.averages_from);
     MotionInterval::Pending pending;
@@ -187,7 +187,7 @@ BlockAverages::Block BlockAverages::block_up_to(std::int64_t step,
     block.pairs = static_cast<double>(sample.pair_collisions - before.pair_collisions);
     const auto steps = static_cast<double>(step - sample_step_);
     block.motion = integrals_between(system_, before, sample, steps);
-    // These numbers are assumed to change linearly between two samples
+    // Mean speed and kurtosis are assumed to change linearly between two samples
     for (const MotionSample* one : {&before, &sample}) {
         block.speed += steps / 2 * one->mean_speed * one->speed_unit * system_.velocity_unit;
         block.kurtosis += steps / 2 * kurtosis_of(*one);

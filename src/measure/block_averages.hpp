@@ -3,8 +3,8 @@
 // measurement is always on, and has its own sampling times.
 //
 // A block covers a number of steps. When there are `most_blocks` blocks, they are joined in pairs,
-// and later blocks are twice as long. The discs are sampled at fixed steps, which do not depend on
-// syncs. Between two samples the integrals of stress and energy are exact (engine/stress_sums.hpp),
+// and later blocks are twice as long. Samples are taken at equal intervals, between syncs as well.
+// Between two samples the integrals of stress and energy are exact (engine/stress_sums.hpp),
 // and so are counts of collisions. Mean speed and kurtosis are assumed to change linearly. In long
 // runs samples are 64 micro-steps or a sync interval apart, whichever is longer; short runs and
 // changing energies need closer samples. Cost of a sample: two passes over the discs, 5 ns a disc.
@@ -44,7 +44,7 @@ public:
     /// The first step after `step` at which averages begin or a sample is due.
     std::int64_t next_due(std::int64_t step) const;
     void sample_if_due();
-    /// Starts the interval again at this step, with the velocities that effects have just changed.
+    /// Begins the interval of integrals again at this step, after effects have changed velocities.
     void begin_interval() { interval_->begin(interval_->now()); }
     void sample(const SampledState& state) override;
     void keep(KeptNumbers& kept) override;
@@ -74,7 +74,7 @@ private:
     Block block_up_to(std::int64_t step, const MotionSample& sample) const;
     void keep_blocks(KeptNumbers& kept);
     bool lost_discs() const;
-    /// In a run that begins with blocks of single steps an error needs `collisions` of each disc.
+    /// Runs that begin with single-step blocks need `collisions` pair collisions a disc for errors.
     template <class Value>
     Estimate estimate(const Block& whole, const Value& value, double collisions = 0) const;
     void fill_pressures(Averages& result, const Block& whole) const;

@@ -71,7 +71,7 @@ double common_temperature(std::span<const double> cells) {
 
 namespace {
 
-/// Kinetic fluxes relative to the mean velocity of the block.
+/// Kinetic stress and heat flow relative to the block's mean velocity, summed over its samples.
 struct Kinetic {
     Moments stress;
     double heat_x, heat_y;

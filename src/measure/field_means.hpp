@@ -51,8 +51,8 @@ void add_sample(const FieldSums& sample, std::size_t cell, SampleSums sums);
 /// Mean kT of a table's cells in a block, weighted by discs; `cells` has BlockNumbers of each cell.
 double common_temperature(std::span<const double> cells);
 
-/// The table's columns from `count` on. `common` is the mean kT of all cells. kT and stress are NaN
-/// if no sample has two discs, heat flows if none has three, unless the flow changes in the block.
+/// The columns of "profiles" from `count` on; `common`: mean kT of all cells. kT and kinetic stress
+/// are NaN if no sample has two discs, kinetic heat flow if none has three and the flow is steady.
 std::vector<double> fields_of(BlockNumbers cell, double common, double n_samples, double steps,
                               double area);
 

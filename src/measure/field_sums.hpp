@@ -157,8 +157,8 @@ private:
     /// The sum of both numbers, in both elements of the result.
     static Pair sum_of(Pair pair) { return pair + turned(pair); }
 
-    /// A double of this size has no fraction. So adding it to a smaller number rounds the number to
-    /// a whole one in the low bits. This takes a third of the work of a conversion.
+    /// A double of this size has no fraction. So its sum with a smaller number has that number,
+    /// rounded to a whole one, in its low bits. This takes a third of the work of a conversion.
     static constexpr double rounder = 0x1.8p52;
     static constexpr std::uint64_t bits_of_rounder = std::bit_cast<std::uint64_t>(rounder);
     /// Both numbers, rounded to whole numbers; `bits_of_rounder` is added to each.

@@ -22,7 +22,7 @@ public:
 
     /// Starts to count crossings of periodic sides. Call it before `begin`. **Collective.**
     void follow();
-    /// This rank's discs, at positions beyond periodic sides that they crossed since the last sync.
+    /// This rank's discs; a disc that crossed a periodic side since the last sync is outside of it.
     std::span<const DiscState> flown(std::span<const DiscState> shown);
     /// Starts all displacements at the present positions. **Collective.**
     void begin(std::span<const DiscState> flown);
@@ -42,7 +42,7 @@ private:
     bool have_velocities_;
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>>
-        first_places_; ///< first places of the consecutive ids that this rank follows
+        first_places_; ///< first positions, by id, of the discs that this rank keeps
     std::vector<std::array<double, 2>> first_velocities_;
     /// In a periodic box: the box lengths that discs have crossed since `begin`
     std::optional<ImageCounts> lengths_;

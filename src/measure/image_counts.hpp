@@ -17,7 +17,7 @@
 
 namespace carrom {
 
-/// This rank's discs, at positions beyond the periodic sides they crossed since the last sync.
+/// This rank's discs; a disc that crossed a periodic side since the last sync is outside of it.
 DiscStates flown_on(const DiscSystem& system);
 
 class ImageCounts {

@@ -84,9 +84,9 @@ public:
 
     /// Called before the first sample, at its step, but not at a restart that restores sums.
     virtual void begin() {}
-    /// Ends the interval since the last sample. Called before `sample`. If effects change the
-    /// energy at syncs, it is also called before they act, so that integrals over time have the
-    /// values before and after the change.
+    /// Ends the interval since the last sample; called once before each sample but the first. If
+    /// effects change the energy at a sync, it is called before they act, so that the interval has
+    /// only values from before the change.
     virtual void end_interval() {}
     virtual void sample(const SampledState& state) = 0;
     /// Whether samples use velocities. If effects change the energy at syncs, such samples are

@@ -36,7 +36,7 @@ public:
     double mean_temperature() const { return pressures_[pressures_.size() - n_numbers + 3]; }
     /// The mean kinetic energy; invalid between sheared sides, and after a restart until a sample.
     double mean_energy() const { return mean_energy_; }
-    /// Time integral of stress times area over the last interval, in steps; it includes the drift.
+    /// Integral of stress times area over the last interval, times in steps; drift is not removed.
     const Tensor& last_integral() const { return last_integral_; }
 
     /// Stores the data of `sampler`, or makes a sampler from stored data before any step.

@@ -181,14 +181,14 @@ private:
     IdOf id_of_;
     std::uint64_t n_;
     Pieces pieces_;
-    std::vector<std::uint32_t> order_;          ///< order of this rank's records, piece after piece
-    std::vector<std::uint32_t> first_in_order_; ///< where each piece begins, and the end
+    std::vector<std::uint32_t> order_;          ///< indices of this rank's records, sorted by piece
+    std::vector<std::uint32_t> first_in_order_; ///< where each piece begins in `order_`; the end
     std::uint64_t round_ = 0, begin_ = 0;
     std::vector<T> piece_;
     std::vector<std::uint8_t> is_placed_;
     std::vector<std::vector<T>> out_;
     Received<T> received_;             ///< records from each sender, in the order of pieces
-    std::vector<std::size_t> n_taken_; ///< number of items already used, for each sender
+    std::vector<std::size_t> n_taken_; ///< number of records already placed, for each sender
 };
 
 } // namespace carrom

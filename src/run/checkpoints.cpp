@@ -135,7 +135,7 @@ std::string Checkpoints::keep(std::int64_t step) {
                        run_.scene().packing() * size * size);
 }
 
-/// Runs again from the last stored state to the end of `step`, and stores it. **Collective.**
+/// Runs again from the last stored state to `step`, and stores the state there. **Collective.**
 void Checkpoints::go_over_to(std::int64_t step) {
     if (last_written_ < 0) return;
     SceneParameters scene = run_.scene();
@@ -152,7 +152,7 @@ void Checkpoints::go_over_to(std::int64_t step) {
 }
 
 void Checkpoints::write() {
-    if (removal_.valid()) removal_.get(); // because the space of the removed file may be needed
+    if (removal_.valid()) removal_.get(); // waits: the removed file's space may be needed
     const std::string path = checkpoint_path(wanted_->folder, run_.step());
     run_.write_checkpoint(path, wanted_->transfers);
     record_written(path, run_.step());
@@ -168,8 +168,8 @@ void Checkpoints::record_written(const std::string& path, std::int64_t step) {
     seconds_since_written_ = 0;
 }
 
-/// Freeing the blocks of a large file takes a fifth of the time of writing it, so another thread
-/// does this during the steps.
+/// Freeing the blocks of a large file takes about a fifth of the time that writing it takes, so
+/// another thread does this during the steps.
 void Checkpoints::remove_oldest() {
     const auto n_removed = std::max<std::ptrdiff_t>(
         0, std::ssize(kept_) - static_cast<std::ptrdiff_t>(wanted_->keep));

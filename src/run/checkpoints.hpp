@@ -5,9 +5,9 @@
 // checkpoint due by wall time? A stretch takes half a second, or one longer step. Cost:
 // one reduction a stretch, also without checkpoints, because the run may have to stop.
 //
-// A step that lasts longer than a second after a request is abandoned, and leaves no consistent
-// state. So runs keep a copy of a recent state, which is then written; copies take about a
-// hundredth of the time. Runs with many discs a rank wait longer for a step and make no copies.
+// A step that lasts longer than a second after a request to stop is abandoned, and leaves no
+// consistent state. So runs keep a copy of a recent state, which is then written; copies take about
+// 1 % of the time of a run. Runs with many discs a rank make no copies, but wait longer.
 #pragma once
 
 #include <cstdint>
@@ -46,9 +46,9 @@ public:
     /// unchanged. **Collective.**
     bool act() override;
 
-    /// Call it after a step was abandoned because of a request to stop. Stores the copy of the last
-    /// state, if there is one. Returns a sentence about the state from which the run can continue.
-    /// **Collective.**
+    /// Call it after a step was abandoned because of a request to stop. Writes the last copy of a
+    /// state to the folder, if there is one. Returns a sentence about the state from which the run
+    /// can continue. **Collective.**
     std::string write_copy();
 
     /// Call it after discs have jammed. Stores the state at the end of `step`, before the jam.
@@ -80,7 +80,7 @@ private:
     Stopwatch stretch_watch_;
     double seconds_since_written_ = 0; ///< seconds by rank 0's clock
     double seconds_since_copied_ = 0;  ///< seconds by rank 0's clock
-    std::optional<Copy> copy_;         ///< copy of a state since the last written one, or none
+    std::optional<Copy> copy_;         ///< copy of a state after the last written one
     std::vector<std::string> kept_;    ///< paths of the checkpoints, oldest first
     std::future<void> removal_;        ///< the removal of older checkpoints, on rank 0
 };

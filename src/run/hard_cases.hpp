@@ -12,8 +12,8 @@
 
 namespace carrom {
 
-/// Warns if a disc moves noticeably during a rounding error of the time. Throws InputError on every
-/// rank if it moves by a radius, or crosses a periodic box too often between syncs. **Collective.**
+/// Warns if rounding of times moves a disc noticeably. Throws InputError on every rank if it moves
+/// one by a radius, or if one crosses a periodic box too often between syncs. **Collective.**
 void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
                        const Communicator& ranks, const Messages& messages);
 

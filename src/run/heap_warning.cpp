@@ -36,7 +36,7 @@ double smallest_radius(const SceneParameters& scene) {
 std::string remedy_of(const SceneParameters& scene) {
     if (!may_have_lasting_contacts(scene)) return "a longer effects.contact.contact_time";
     const double radius = smallest_radius(scene);
-    // The advised speed is about 2 g T, where T is the longest default time between syncs.
+    // The advised speed is about 2 g T: acceleration g, longest default time T between syncs.
     const double pull = std::hypot(scene.effects.acceleration().x, scene.effects.acceleration().y);
     return fmt::format("{} = {:.1g}", lasting_key, 0.5 * std::sqrt(pull * radius));
 }
@@ -121,7 +121,7 @@ std::string HeapWarning::text_on_flow(double per_step) const {
                        scene_.effects.lasting_speed, lasting_key, best);
 }
 
-/// The mass-weighted standard deviation of the discs' velocities.
+/// Root mean square speed relative to the discs' mean velocity, weighted by mass, per step.
 double HeapWarning::speed_of_passing() const {
     double mass = scene_.effects.species.empty() ? static_cast<double>(scene_.n_discs) : 0;
     for (const Species& one : scene_.effects.species)

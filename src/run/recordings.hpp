@@ -3,7 +3,7 @@
 // order, and measurements. Each commit writes the tables of measurements anew. The table "thermo"
 // is written as it grows.
 //
-// Commits come before each checkpoint, at the end, and about once a second for other programs.
+// Commits come before each checkpoint, at the end, and about once a second for other readers.
 #pragma once
 
 #include <cstdint>

@@ -36,7 +36,7 @@ public:
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
-    const SceneParameters& scene() const { return scene_; } ///< method and micro-steps are chosen
+    const SceneParameters& scene() const { return scene_; } ///< includes a pilot's choice
     const Communicator& ranks() const { return ranks_; }
     int n_threads() const { return n_threads_; } ///< threads of this rank
     bool is_restart() const { return is_restart_; }

@@ -113,7 +113,7 @@ void fill_count(const SceneDraft& draft) {
     }
 }
 
-/// Checks that the scene's precision resolves the width of the box and the discs.
+/// Checks that the scene's precision resolves the smallest radius in a box of this width.
 void check_width(const SceneDraft& draft, double smallest_radius) {
     SceneParameters& scene = draft.scene;
     const double l = scene.box.longest(), r = smallest_radius;
@@ -280,7 +280,7 @@ void check_generator(const SceneDraft& draft) {
                               "discs.generator = \"compressed\""));
 }
 
-/// Checks the thermal speed of the lightest discs, which are the fastest.
+/// Checks the root mean square speed of the lightest discs, which are the fastest in the mean.
 void check_temperature(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!scene.temperature || *scene.temperature == 0) return;

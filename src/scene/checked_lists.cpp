@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks which columns lists and files of discs have.
+// Checks of the columns that `discs.list` and files of discs have.
 #include "scene/data_lines.hpp"
 #include "scene/scene_draft.hpp"
 

@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// Converts the value to the form that the key's `set` accepts. If it is invalid, adds problems and
-/// marks the setting as wrong. An invalid row becomes `monostate`.
+/// Converts the value to the form that the key's `set` accepts. For an invalid value, adds problems
+/// and marks the setting as wrong. An invalid row of an array becomes `monostate`.
 void check_value(const Key& key, Setting& setting, Problems& problems);
 
 /// Text such as "a number greater than 0" or "an array of [x, y, radius]".
@@ -20,7 +20,7 @@ std::string range_text(const Range& range);
 std::string number_text(double number);
 /// The shortest decimal that reads back as the same bits.
 std::string decimal_text(double number);
-/// Text such as "\"a\", \"b\" or \"c\"".
+/// The words in quotes, joined by commas and "or".
 std::string words_text(const std::vector<std::string_view>& words);
 
 } // namespace carrom

@@ -19,7 +19,7 @@ struct Row {
     BySideColumn<double> beside;
 };
 
-/// The line's own id or `id`, and its numbers; nothing if one is wrong, which DiscReader reports.
+/// The line's numbers, with `id` if the line has no id; nothing if one is wrong (reported later).
 std::optional<Row> row_of(const std::vector<std::string_view>& words,
                           const std::vector<DiscColumn>& columns, DiscId id) {
     if (words.size() != columns.size()) return std::nullopt;

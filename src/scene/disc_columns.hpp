@@ -3,7 +3,7 @@
 //
 // The checks of a scene need radii and masses. All ranks need the columns of all discs, because the
 // dynamics uses them. So rank 0 first reads these columns, and then the file is read for the discs.
-// Successive discs of equal radius and mass form a species, in the worst case one for each disc.
+// Successive discs of equal radius and mass form a species; at worst each disc is its own species.
 #pragma once
 
 #include <istream>
@@ -13,15 +13,15 @@
 
 namespace carrom {
 
-/// Numbers in the order of ids. If not `is_whole`, the file is unreadable, or has wrong lines or a
-/// wrong number of lines, which is reported when the discs are read.
+/// Numbers in the order of ids. If `is_whole` is false, the file is unreadable, or has wrong lines
+/// or a wrong number of lines. DiscReader reports this when it reads the discs.
 struct DiscColumns {
     std::vector<Species> species; ///< empty if the file has no column of radii
     FirstNumbers numbers{};       ///< empty if the file has no side columns
     bool is_whole = true;
 };
 
-/// Reads all lines of `stream` from the first one. Needs 48 bytes of memory a disc while it reads.
+/// Reads all lines of `stream` from the first one. Needs 48 bytes of memory per disc as it reads.
 DiscColumns read_disc_columns(std::istream& stream, const SceneParameters& scene);
 
 bool has_column(const SceneParameters& scene, DiscColumn column);

@@ -4,10 +4,10 @@
 //
 // A line is "id x y vx vy", or has other columns (`discs.columns`), in any order of ids. Columns
 // beyond positions and velocities are only checked here; read_disc_columns reads them. The test
-// that every id occurs once needs up to one bit a disc. A line takes less than a microsecond.
-// Threads parse lines together, and then ids are recorded in the order of lines. Without a column
-// of ids, discs are numbered in the order of lines. Positions are relative to the users' origin
-// (scene/places.hpp), but in lines of `discs.from` to the lower left corner of the box.
+// that every id occurs once needs up to one bit a disc. Reading takes less than a microsecond
+// a line. Threads parse the lines of a chunk; then ids are recorded in the order of lines. With no
+// column of ids, discs are numbered in the order of lines. Positions are relative to the users'
+// origin (scene/places.hpp), but in lines of `discs.from` to the lower left corner of the box.
 //
 // Problems are collected, not thrown, so that one pass over a file finds them all.
 #pragma once
@@ -29,14 +29,14 @@ namespace carrom {
 
 class DiscReader {
 public:
-    /// This many problems are listed; the rest are counted
+    /// The first problems, up to this number, are listed; further ones are only counted
     static constexpr std::size_t most_problems = 20;
     static constexpr std::size_t most_wrong_lines =
         1'000'000; ///< reading ends after this many problems, because the file is
                    ///< probably not a list of discs
 
-    /// A function that calls work(first, last) for ranges that together cover 0 .. n - 1, on any
-    /// threads.
+    /// A function that calls work(first, last) for ranges [first, last) that together cover
+    /// 0 .. n - 1, on any threads.
     using InParts =
         std::function<void(std::size_t n, const std::function<void(std::size_t, std::size_t)>&)>;
 
@@ -56,8 +56,8 @@ public:
         std::vector<InputDisc>& chunk, std::size_t limit,
         const InParts& in_parts = [](std::size_t n, const auto& work) { work(0, n); });
 
-    /// The first errors of lines, the number of the others, and missing ids. Call it after `read`
-    /// has returned false. Not for parts, whose line numbers are unknown.
+    /// The first errors of lines, the number of further errors, and missing ids. Call it after
+    /// `read` has returned false. Not for parts of a file, whose line numbers are unknown.
     std::vector<Problem> problems() const;
     /// Whether a part has had no wrong line and no read error so far.
     bool is_flawless() const {

@@ -23,7 +23,7 @@ std::string problem_of_frozen(const SceneParameters& scene, const std::vector<Fr
 
 /// Makes the discs fixed bodies, and adds the setting that lists them. The scene must have a key
 /// that freezes discs, and no frozen discs yet. `has_others_alone`: the scene's species already
-/// lack the frozen discs, because they come from a state that has only the moving discs.
+/// lack the frozen discs, because these species come from a checkpoint of the moving discs.
 void set_frozen(SceneParameters& scene, std::vector<FrozenDisc> frozen,
                 bool has_others_alone = false);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The list of the keys of [discs], some of which other files declare, and size and origin of [box].
+// Lists the keys of [discs], some of which other files declare, and size and origin of [box].
 #include <algorithm>
 
 #include "scene/disc_columns.hpp"

@@ -14,7 +14,7 @@ namespace carrom {
 void add_overrides(Settings& settings, Problems& problems,
                    const std::vector<std::string>& overrides);
 
-/// The problem with a text that has no key or no `=`.
+/// The error message for an override that has no key or no `=`.
 std::string form_problem(const std::string& text);
 
 } // namespace carrom

@@ -20,15 +20,15 @@
 
 namespace carrom {
 
-/// The axis of a number of a row, or of the single number of a key; nothing if the number is not a
-/// place.
+/// The axis of the number with index `number` in a row of the key, or of the key's only number
+/// (index 0); nothing if it is not a place.
 std::optional<Axis> axis_of(const Key& key, std::size_t number);
 bool has_places(const Key& key);
 
 /// Adds dx or dy to all coordinates in the value of `key`, whose form must have been checked.
 void move_places(const Key& key, Value& value, double dx, double dy);
 
-/// Computes an origin that is given as the centre of the box, which is 0 if its value is wrong.
+/// Computes an origin that is given as "centre": half the edges of the box, which are 0 if wrong.
 void find_origin(SceneParameters& scene);
 
 /// The shortest decimal of `place` in users' coordinates from which it can be read back exactly.

@@ -19,10 +19,10 @@ struct Quantity {
     std::string_view help;           ///< the quantity's text on the page of keys
     std::vector<Key> keys = {};      ///< settings of the quantity; several quantities can share one
     bool has_history = false;        ///< whether its tables grow with each sample
-    bool follows_collisions = false; ///< whether it needs each collision; GPUs do not record them
+    bool follows_collisions = false; ///< whether it needs each collision, which GPUs do not record
     std::vector<Rule> rules = {};    ///< features with which it cannot be combined
-    void (*check)(const SceneDraft&) = {}; ///< called if box and discs are valid; a check that
-                                           ///< quantities share runs once
+    void (*check)(const SceneDraft&) = {}; ///< called if box and discs are valid; runs once even
+                                           ///< if several measured quantities have this check
     void (*check_times)(const SceneDraft&) = {}; ///< called when the times of the scene are known
 };
 
@@ -31,8 +31,8 @@ void declare_quantities(std::vector<Quantity> quantities);
 
 const std::vector<Quantity>& declared_quantities();
 
-/// The key that lists the quantities to measure. If a quantity's setting is missing in the scene,
-/// its problems are reported at this key.
+/// The key that lists the quantities to measure. A problem with a setting of a quantity that the
+/// scene does not contain is reported at this key.
 inline constexpr std::string_view quantities_key = "output.measurements.quantities";
 
 inline bool measures(const SceneParameters& scene, std::string_view quantity) {

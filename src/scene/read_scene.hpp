@@ -40,7 +40,7 @@ std::ifstream open_input(const std::string& path);
 /// is one. Called on one rank.
 SceneText read_scene_text(std::istream& stream, const std::string& name);
 
-/// The scene of `input`, in which `overrides`, each of the form "key=value", replace settings. A
+/// Reads the scene of `input`; `overrides`, each of the form "key=value", replace its settings. A
 /// problem in an override has the place "--set KEY". A pure function: the same arguments give the
 /// same scene or the same InputError.
 SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides = {});

@@ -24,7 +24,7 @@ std::string problem_of_crowd(const StartRegion& region, std::uint64_t count, dou
 
 Key region_key();
 
-/// Checks that regions are in the box, and that their discs can be placed in each at random.
+/// Checks that each region is in the box, and that its discs can be placed in it at random.
 void check_regions(const SceneDraft& draft);
 
 } // namespace carrom

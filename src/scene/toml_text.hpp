@@ -22,7 +22,7 @@ std::optional<Value> parse_value(const Key& key, const std::string& text);
 /// Reads an inline table of `--set`. Returns nothing if the text is not a table.
 std::optional<NamedValues> parse_table(const std::string& text);
 
-/// A checked value in TOML's syntax; it reads back as the same bits.
+/// The checked value in TOML's syntax; when it is read again, numbers have the same bits.
 std::string toml_text(const Key& key, const Value& value);
 
 } // namespace carrom

@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// The index of the nearest name, or nothing if no name is near enough to be the intended one.
+/// The index of the name nearest to `name`, or nothing if none is near enough to be meant.
 std::optional<std::size_t> nearest_of(std::string_view name,
                                       std::span<const std::string_view> names) {
     name = name.substr(0, 200);
@@ -57,7 +57,7 @@ std::vector<std::string_view> names_in(std::string_view table, bool is_known) {
     return names;
 }
 
-/// A text that lists the names in the innermost existing table.
+/// A text that lists the names in `table`, or in the next outer table if `table` does not exist.
 std::string what_there_is(std::string_view table) {
     while (!table.empty() && !find_table(table)) table = table_of(table);
     if (table.empty())

@@ -39,7 +39,7 @@ std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
     return parts;
 }
 
-/// Frees inputs while making states, because both together would be the peak of the run's memory.
+/// Makes the state at step 0, and frees inputs meanwhile: both together would be the most memory.
 StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     const double rate_unit = scene.velocities == VelocityKind::reversed ? -k : k;
@@ -77,7 +77,7 @@ std::unique_ptr<Engine> engine_for(const SceneParameters& scene, StoredState sta
     return make_time_stepped_engine(scene, std::move(state), communicator, tuning);
 }
 
-/// About the largest usual speed of discs in the run, per micro-step; the same on all ranks.
+/// Estimates the largest speed usual in the run, per micro-step; the same on all ranks.
 double usual_speed(const SceneParameters& scene, std::span<const DiscState> own,
                    const Communicator& ranks) {
     const Effects& effects = scene.effects;
@@ -160,7 +160,7 @@ void DiscSystem::advance_towards(std::int64_t last_step) {
 }
 
 void DiscSystem::begin_stress_sums(double bound) {
-    if (stress_ && bound == stress_bound_) return; // the run may continue from a checkpoint
+    if (stress_ && bound == stress_bound_) return; // the sums have this unit already
     stress_bound_ = bound;
     stress_ = std::make_unique<StressSums>(bound);
     engine_->add_stress_to(stress_.get());

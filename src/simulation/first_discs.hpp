@@ -22,7 +22,7 @@ namespace carrom {
 std::vector<InputDisc> first_discs(const SceneParameters& scene, std::istream* following,
                                    const Communicator& communicator, const Tuning& tuning);
 
-/// Like first_discs. Discs that the scene freezes become its fixed bodies (frozen_discs.hpp).
+/// Like first_discs, but the scene may freeze discs: they become fixed bodies (frozen_discs.hpp).
 /// **Collective.**
 std::vector<InputDisc> first_discs_and_frozen(SceneParameters& scene, std::istream* following,
                                               const Communicator& communicator,

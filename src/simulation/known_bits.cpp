@@ -51,8 +51,8 @@ std::string hash_of(Method method) {
     return to_string(system.totals().hash);
 }
 
-/// Reports no difference if a stop is requested during the test; the run then stops on all ranks
-/// together.
+/// Describes the first wrong hash on this rank; empty if there is none, or if a stop is requested
+/// during the test, because the run then stops on all ranks together.
 std::string difference_here() try {
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         const std::string hash = hash_of(method);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Errors of averages over time for correlated samples.
 //
-// Samples are joined to blocks of equal length. When there are `most_blocks`, neighbouring blocks
+// Samples are joined into blocks of equal length. When there are `most_blocks`, neighbouring blocks
 // are joined in pairs, so that memory does not grow with time. The error comes from blocks so long
 // that their means are independent (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)).
 // Jonsson's test (Phys. Rev. E 98, 043304 (2018)) finds that length automatically. The remaining

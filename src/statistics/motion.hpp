@@ -3,7 +3,7 @@
 // two such times. Temperature and pressure follow from them (docs/understanding/pressure.md).
 //
 // All sums have the same bits for any number of ranks and threads. A sample takes two passes over
-// the discs, which is about five nanoseconds a disc.
+// the discs, in all about five nanoseconds a disc.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ struct MotionSample {
     double mean_speed = 0, mean_square = 0, mean_fourth = 0;
     double n_discs = 0;                              ///< number of discs in the box
     double mass = 0, momentum_x = 0, momentum_y = 0; ///< sums over all discs in the box
-    Tensor motion;                                   ///< sum of m v v
+    Tensor motion;                                   ///< sum of m v v over all discs in the box
     /// Time integral of stress times area since the sums began, in mass length^2 per micro-step
     Tensor stress;
     double energy = 0; ///< the integral of the trace of `motion`, in the same unit

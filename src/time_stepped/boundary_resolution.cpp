@@ -108,8 +108,8 @@ void BoundaryResolution::find_first(const Population& population, const Candidat
     }
 }
 
-/// Keeps and rejects candidates that this rank can decide alone, after it has decided those marked
-/// in `is_struck` and put the discs of the kept ones into `taken_`.
+/// Keeps and rejects the candidates that this rank can decide alone. Those marked in `is_struck`
+/// have been decided before, and the discs of the kept ones among them are in `taken_`.
 void BoundaryResolution::walk_own(const Population& population,
                                   const std::vector<std::uint8_t>& is_struck, Candidates& undecided,
                                   Candidates& kept) {

@@ -42,7 +42,7 @@ public:
                 Candidates& undecided, std::uint64_t n_conflicts, Candidates& kept);
 
     int rounds_before_sort = 6; ///< rounds of messages before the sort; affects only the cost
-    std::uint64_t candidates_per_slice = 8192; ///< affects only the cost
+    std::uint64_t candidates_per_slice = 8192; ///< least size of a slice; affects only the cost
 
 private:
     struct Conflict;
@@ -59,7 +59,7 @@ private:
     Communicator communicator_;
     NeighbourExchange with_neighbours_, next_slice_;
     std::vector<std::uint8_t>
-        is_first_; ///< whether each undecided candidate is the first one of all its discs
+        is_first_; ///< whether each undecided candidate is the first one of its own discs
     DiscSet seen_, taken_;
 };
 

@@ -90,7 +90,7 @@ template <class T> T* room(std::vector<T>& buffer, std::size_t size, std::size_t
     return buffer.data();
 }
 
-/// touching^2 for find_near_passes, whose d x w has an error of at most 5 * 2^-24 |d| |w|.
+/// The touching^2 that find_near_passes needs, because its d x w errs by up to 5 * 2^-24 |d| |w|.
 float passing_squared(const CellGrid& grid, float touching_squared) {
     const float margin = 0x1p-21f * 4 * static_cast<float>(grid.geometry().n_reach + 2);
     const float passing = std::sqrt(touching_squared) + margin;
@@ -179,7 +179,7 @@ HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column
     return n_pairs;
 }
 
-/// Finds the pairs of own discs for FilterColumn, if flights are shorter.
+/// Finds the pairs of own discs for FilterColumn, if the reach is at most 8 contact distances.
 template <class D>
 HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int column,
                                             float touching_squared, std::vector<DiscPair>& pairs) {

@@ -31,8 +31,8 @@ std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, fl
 std::size_t filter_along(const CellGrid& grid, const FlightLanes& lanes, std::uint32_t k,
                          float from, float half_reach, float touching_squared,
                          std::vector<DiscPair>& pairs, std::size_t n_pairs);
-/// Like filter_around for the flights `run` of `others`, over the whole window; `second` is an
-/// index in `others`.
+/// Like filter_around, for flight k of `lanes` and the flights `run` of `others`, over the whole
+/// window; `first` is k, and `second` is an index in `others`.
 std::size_t filter_lanes(const FlightLanes& lanes, std::uint32_t k, const FlightLanes& others,
                          SlotRange run, float touching_squared, std::vector<DiscPair>& pairs,
                          std::size_t n_pairs);

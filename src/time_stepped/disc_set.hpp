@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A set of discs that is filled and emptied several times a window. Emptying costs nothing and
-// frees no memory, and inserting a disc allocates none.
+// A set of discs that is filled and emptied several times a window. Emptying takes a constant time
+// and frees no memory, so that later insertions rarely allocate any.
 #pragma once
 
 #include <cstddef>

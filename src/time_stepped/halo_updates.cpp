@@ -33,7 +33,7 @@ void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
     for (std::size_t k = 0; k < updates_.size(); ++k) {
         LocalIndex& index = updates_[k];
         if (states_[index] == window.state_after(m)) {
-            index = wall_index; // this rank has hit the disc itself
+            index = wall_index; // this rank has carried out the disc's collision itself
             continue;
         }
         states_[index] = window.state_after(m);

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-// Marks that are no numbers of candidates. A blocked disc has an undecided candidate.
+// Marks that differ from all numbers of candidates. A blocked disc has an undecided candidate.
 constexpr std::uint32_t free_disc = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t taken_disc = free_disc - 1;
 constexpr std::uint32_t blocked_disc = free_disc - 2;

@@ -31,7 +31,7 @@ class LocalResolution {
 public:
     explicit LocalResolution(int n_threads) : n_threads_(n_threads) {}
 
-    /// Decides the candidates `live`, and empties this list. No disc has a kept candidate before.
+    /// Decides the candidates in `live`, and empties it. Before the call no disc has a kept one.
     void resolve(const Population& population, Candidates& live, Verdicts& verdicts);
 
     int rounds_before_walk = 12; ///< affects only the cost; with 0 the walk starts immediately

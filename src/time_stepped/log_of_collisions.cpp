@@ -24,7 +24,7 @@ void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState> resu
     for (std::size_t i = 0; i < unhit_.size(); ++i) {
         const Candidate& c = verdicts_.kept[i];
         if (c.p >= discs_.n_own()) continue;
-        // the disc has left without a collision
+        // a departed disc is at rest, but it got no impulse
         if (results[c.p].has_departed()) unhit_[i].vx = unhit_[i].vy = 0;
         const double dx = (results[c.p].vx - unhit_[i].vx) * k,
                      dy = (results[c.p].vy - unhit_[i].vy) * k;

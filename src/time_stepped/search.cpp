@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-/// Number of discs between the prefetch of the flights around a disc and its search
+/// Number of discs between the prefetch of the flights around a disc and the search around it.
 constexpr std::size_t around_ahead = 4;
 /// Number of discs whose partners are listed before their contacts are predicted.
 constexpr std::size_t hits_per_batch = 128;
@@ -78,8 +78,8 @@ Candidates SearchLists::take(std::size_t bucket, std::span<const WindowState> st
     return std::exchange(list.candidates, {});
 }
 
-/// Bounds of the rejection in single precision. Pairs are rejected by their distance. Walls are
-/// rejected by the position at the window's end, in cells along the grid's axis (x) and across it.
+/// Bounds that reject contacts in single precision: pairs by their distance, walls by the position
+/// at the window's end. They are in cells, along the grid's axis (x) and across it.
 template <class Dynamics> struct Search<Dynamics>::Bounds {
     float touching_squared, touching_large_squared; ///< the second one for pairs with a large disc
     float x_low, x_high, y_low, y_high;

@@ -20,7 +20,7 @@ struct MetWalls {
     bool at_x = false, at_y = false;
 };
 
-/// Refers to the dynamics, which must outlive it.
+/// Holds a reference to the dynamics, which must outlive it.
 template <class Dynamics> class StepWalls {
     using Real = typename Dynamics::Real;
     using State = typename Dynamics::Arithmetic::State;
@@ -28,7 +28,7 @@ template <class Dynamics> class StepWalls {
 public:
     CARROM_DEVICE explicit StepWalls(const Dynamics& dynamics) : dynamics_(dynamics) {}
 
-    /// The time of the disc's first bounce in m, or `never`.
+    /// The time of the disc's first bounce in micro-step m, or `never`.
     CARROM_DEVICE double time(const DiscState& disc, double m) const {
         const double at_side = side_time(disc, m);
         if (!has_fixed_bodies()) return at_side;

@@ -98,7 +98,7 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n
         this->set_departed_aside();
         survey_images();
         agree_on_speed();
-        if (largest_speed_ > 0 && (n_windows_ == 0 || n_parts_ > 1)) // equal on all ranks
+        if (largest_speed_ > 0 && (n_windows_ == 0 || n_parts_ > 1)) // all ranks agree on this
             spread_ = survey_speeds(discs_.own(), largest_speed_, communicator_, tuning_.threads);
         if (n_windows_ == 0) hits_per_micro_step_ = guess_of_hits(window_needs());
     }

@@ -16,8 +16,8 @@ namespace carrom {
 
 namespace {
 
-/// Both methods, each with K = 1, `factor`, factor^2, ... micro-steps. The first setting is the
-/// reference: the event-driven method with default arithmetic.
+/// Both methods, each with K = 1, `factor`, factor^2, ... micro-steps per step. The first setting
+/// is the reference: the event-driven method with default arithmetic.
 std::vector<RunSetting> settings_of(const StudyOptions& options, std::int64_t factor) {
     std::vector<RunSetting> settings;
     for (std::int64_t k = 1; k <= options.most_micro_steps; k *= factor) {

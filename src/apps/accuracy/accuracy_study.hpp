@@ -17,7 +17,7 @@ enum class Formulas {
     usual,
     stable,
     all
-}; ///< stable formula in double; in both precisions; stable and naive formula in both precisions
+}; ///< usual: stable formula in double precision; stable: also in single precision; all: naive, too
 
 struct StudyOptions {
     std::string table = "accuracy.csv";
@@ -28,13 +28,13 @@ struct StudyOptions {
     bool quiet = false;
 };
 
-/// Measures costs and errors of K = 1, 2, 4, ... micro-steps in both methods. Each repetition runs
-/// all settings in turn. Throws InputError. Called on one rank.
+/// Measures costs and errors of K = 1, 2, 4, ... micro-steps per step in both methods. A repetition
+/// runs all settings in turn. Throws InputError. Called on one rank.
 void study_costs(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                  const StudyOptions& options, const Communicator& ranks);
 
 /// Measures distances of discs from their positions in the exact run, about once per collision of a
-/// disc. K is 1, 16, 256, ... up to `most_micro_steps`. Throws InputError. Called on one rank.
+/// disc, with K = 1, 16, 256, ... micro-steps per step. Throws InputError. Called on one rank.
 void study_distances(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                      const StudyOptions& options, const Communicator& ranks);
 

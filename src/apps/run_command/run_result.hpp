@@ -24,7 +24,7 @@ namespace carrom {
 /// ranks, as each comment says. The totals do not depend on the numbers of ranks and threads.
 struct RunResult {
     Totals start, end;
-    std::vector<EndNumber> end_numbers; ///< further numbers at the end, from the scene's effects
+    std::vector<EndNumber> end_numbers; ///< numbers of effects at the end, simultaneous collisions
     std::int64_t first_step = 0, last_step = 0;
     std::optional<StopReason> stop_reason; ///< why the run ended before the scene's last step
     int ranks = 1;
@@ -33,14 +33,14 @@ struct RunResult {
     DeviceFacts device;      ///< the GPU; its name is empty if there was none
     double wall_seconds = 0; ///< time of stepping, of the slowest rank; without output
     Averages averages;       ///< averages over the run, including the parts before restarts
-    std::vector<WatchedNumber> watched; ///< order and energy, if they can change
+    std::vector<WatchedNumber> watched; ///< psi6 of dense discs; energy if it can change
     std::vector<MeasuredTable> tables;  ///< the tables that the scene measures
     std::vector<std::string> doubts_of_tables;
     RollbackCounts runs;        ///< rollbacks of the event-driven method
     PhaseSeconds phase_seconds; ///< time of the slowest rank in each phase
     /// For each phase, the largest time of a rank divided by the mean of the ranks
     PhaseSeconds phase_imbalance;
-    double imbalance = 1; ///< largest `busy_seconds` of a rank divided by the mean
+    double imbalance = 1; ///< largest `busy_seconds` of a rank divided by the ranks' mean
     /// Radii at the end divided by the scene's radii: Engine::size
     double size = 1;
     double peak_bytes_per_disc = 0; ///< sum of the ranks' peak memory divided by number of discs

@@ -97,7 +97,7 @@ struct Comparison {
     /// discs begin at index `begin`. All terms are computed before they are added, because loops
     /// with sums in a fixed order are not vectorised.
     void add_to(double* of, std::size_t begin, std::size_t n) const {
-        // Not initialised, which saves a tenth of the time.
+        // Not initialised, which saves a tenth of a sample's time.
         std::array<double, ids_of_run> square, product, wave, is_near;
         const double *const x = &now.x[begin], *const y = &now.y[begin], *const vx = &now.vx[begin],
                             *const vy = &now.vy[begin], *const x_before = &before.x[begin],
@@ -178,7 +178,7 @@ public:
         levels_.resize(n_levels, Level(scheme_.points()));
         for (Level& level : levels_)
             for (FollowedStates& states : level) keep_states(kept, states);
-        if (kept.is_restored() && kept.is_at_end()) return; // earlier versions stored no more
+        if (kept.is_restored() && kept.is_at_end()) return; // written by earlier versions
         waiting_.keep(kept);
     }
 
@@ -215,7 +215,7 @@ public:
 private:
     using Level = std::vector<FollowedStates>;
     static constexpr std::uint64_t lags_per_run = 32;
-    static constexpr double most_deviations = 4; ///< exceeded by chance in one of some 300 runs
+    static constexpr double most_deviations = 4; ///< standard errors; by chance in 1 of 300 runs
 
     void add_waiting_times(std::vector<MeasuredTable>& all) const {
         const auto add = [&](std::string name, std::size_t kind) {

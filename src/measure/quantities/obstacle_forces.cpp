@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    /// The mean per step, in an interval, of number `part` (see force_words) of obstacle `row`.
+    /// Number `part` of force_words for obstacle `row`, as a mean per step over an interval.
     double rate_of(std::size_t interval, std::size_t row, std::size_t part) const {
         return given_[(interval * rows_.size() + row) * n_force_parts + part] /
                static_cast<double>(run_.output.every_steps);
@@ -138,8 +138,8 @@ private:
     }
 
     void clear() {
-        // These bounds exceed the sums of any run. The resolution is 2^-63 of a typical impulse, of
-        // this impulse times the box length, or of its square.
+        // These bounds exceed the sums of any run. The resolution is 2^-62 of a typical impulse, of
+        // this impulse times the box length (torque), or times the typical speed (power).
         const double impulse = speed_scale_ * 0x1p62;
         const std::array<double, n_force_parts> bounds{
             impulse, impulse, impulse * run_.scene.box.longest(), impulse, impulse * speed_scale_};

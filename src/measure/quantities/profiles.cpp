@@ -121,7 +121,7 @@ public:
         const double time = run_.system.clock(), unit = run_.system.velocity_unit();
         const double per_x = static_cast<double>(n_x_) / (box.x_high - box.x_low),
                      per_y = static_cast<double>(n_y_) / (box.y_high - box.y_low);
-        const auto place = [](double x, std::size_t n) { // edges count in the outer cells
+        const auto place = [](double x, std::size_t n) { // a disc on an edge is in an outer cell
             return static_cast<std::size_t>(std::clamp<std::int64_t>(
                 static_cast<std::int64_t>(x), 0, static_cast<std::int64_t>(n) - 1));
         };
@@ -216,7 +216,7 @@ private:
         return sums_.terms_of(impulse, Pair{event.dx, event.dy}, velocity);
     }
 
-    /// For most collisions the whole line between the centres is in one cell.
+    /// Adds a collision; mostly the whole line between the centres of its discs is in one cell.
     void add(const PairEvent& event, const PlacedGrid& grid) {
         const Pair from = Pair{event.x, event.y} * grid.per_length + grid.origin,
                    length = Pair{event.dx, event.dy} * grid.per_length, to = from + length;
@@ -322,7 +322,7 @@ private:
     std::vector<double> blocks_;  ///< count and moments of each field in finished blocks
 };
 
-/// `n` fields of each block, from field `first` on. A single field means the whole box.
+/// `n` fields of each block, from field `first` on. The last field is the whole box.
 MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_t n) const {
     const bool is_grid = n == n_cells() && first + n < n_fields();
     const std::string where = is_grid ? fmt::format("on a grid of {} by {} cells; x, y: their "

@@ -60,17 +60,17 @@ public:
     void take(std::span<const PairEvent> events) override {
         for (const PairEvent& event : events) {
             const double time = event.steps_since(last_step_, run_.scene.micro_steps);
-            // Velocities relative to the drift: their sum s does not change, and r is their
-            // difference after the collision. The discs are equal and elastic, so p gains the
-            // energy i s / 2.
+            // s: sum of both velocities relative to the drift, which does not change; r: their
+            // difference after the collision. The discs are equal and elastic, so the impulse i on
+            // p gives p the energy i s / 2.
             const double sx = event.p_vx + event.q_vx - 2 * drift_[0],
                          sy = event.p_vy + event.q_vy - 2 * drift_[1], rx = event.p_vx - event.q_vx,
                          ry = event.p_vy - event.q_vy;
             const double gained = (event.ix * sx + event.iy * sy) / 2,
-                         // Difference of p and q before the collision
+                         // Energy of p minus energy of q before the collision
                 difference = (rx * sx + ry * sy) / 2 - 2 * gained;
-            // The two terms are the energy that passes from one centre to the other, and the
-            // change of the flights' integrals over the rest of the time.
+            // First term: the energy that p gives q times their separation. The second corrects for
+            // the time before the collision: `sample` adds the last current for the whole interval.
             const auto sum = [&](double r, double i, double d) {
                 return -gained * d - time * (gained * r + difference * i);
             };
@@ -143,7 +143,7 @@ public:
 private:
     using Moments = std::array<double, n_components>;
     using Level = std::vector<Moments>;
-    /// Values of a lag: squares of shear (mean of two), trace, heat (mean of two); and the trace.
+    /// Values of a lag: mean shear^2, trace^2, mean heat^2 and trace, for the changes over the lag.
     static constexpr std::size_t n_values = 4;
 
     /// Kinetic energy for a mass of 1, relative to the centre of mass.
@@ -187,20 +187,20 @@ private:
 
     MultipleTau scheme_;
     std::optional<PressureSampler> pressure_;
-    double speed_ = 0;              ///< typical speed, from which units follow
+    double speed_ = 0;              ///< typical speed, from which units of sums follow
     std::array<double, 2> drift_{}; ///< velocity of the centre of mass, per step
     std::array<ExactSum, 2> heat_;  ///< time integral of the heat current since the last sample
     std::int64_t last_step_ = 0;    ///< step of the last sample
     std::uint64_t n_samples_ = 0;   ///< including the first one
-    double temperature_ = 0;        ///< sum of kT over the intervals
-    double usual_trace_ = 0;        ///< estimated change of the trace in an interval; subtracted
+    double temperature_ = 0;        ///< sum of the mean kT of each interval
+    double usual_trace_ = 0;        ///< estimated change of the trace in an interval, subtracted
     Moments moments_{};             ///< moments of the last sample; 0 at the first one
     std::vector<Level> levels_;
     std::vector<VectorBlocks> lags_;
 };
 
-/// A coefficient is the spread over `scale` and twice the lag. Its slope takes the growth of the
-/// spread since the next shorter lag, and the lags' difference: Green and Kubo's integral.
+/// A coefficient is the spread divided by `scale` and by twice the lag. Its slope is the same
+/// ratio for the growth of spread and lag since the next shorter lag: Green and Kubo's integral.
 std::vector<MeasuredTable> Transport::tables() const {
     MeasuredTable table{
         "transport",

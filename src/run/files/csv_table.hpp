@@ -13,7 +13,7 @@ public:
     /// if the disk or a missing right prevents writing. Writes nothing before the first line.
     CsvTable(std::string path, std::string header);
 
-    /// Throws CollectiveError (code 4) if writing fails; the table then ends with the line before.
+    /// Throws CollectiveError (code 4) if writing fails; the table then ends before this line.
     void append(const std::string& line);
 
 private:

@@ -3,8 +3,8 @@
 //
 // Files are opened by their paths, so the run would otherwise continue in any folder that has taken
 // the name, such as another run's, or an empty one where a disk is no longer mounted. The open lock
-// file shows that its path has changed. Cost: two system calls and a reduction for each stretch of
-// steps, in runs with a folder.
+// file shows whether its path still leads to it. Cost: two system calls and a reduction for each
+// stretch of steps, in runs with a folder.
 #pragma once
 
 #include <cstdint>

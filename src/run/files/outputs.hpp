@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks before a run begins: its outputs can be written, are not read and do not
-// belong to another run, and no other run is writing there now.
+// Checks before a run begins: its outputs can be written, are none of the files that it reads, and
+// belong to no other run; and no other run is writing there now.
 #pragma once
 
 #include <string>

@@ -17,11 +17,11 @@ namespace {
 constexpr double approach = 10; ///< mean number of collisions of a disc before the trials begin
 constexpr double certainty = 2; ///< standard errors that are added to a measured error
 constexpr double most_collisions = 4e6; ///< largest result of collisions_needed
-/// The best accuracy that 4e6 collisions can show; sqrt(4e6) is 2000
+/// The smallest error that 4e6 collisions can show; sqrt(4e6) is 2000
 constexpr double least_accuracy = 4 * certainty / 2000;
 /// The least number of collisions of a disc in a trial, because errors in dense gases appear late
 constexpr double per_disc = 100;
-/// Trials need this many pair collisions to be timed, or these numbers of disc-steps and steps.
+/// To be timed, trials need this many pair collisions, or both this many disc-steps and steps.
 constexpr double fewest_collisions = 2e4;
 constexpr double long_enough = 2e4;
 constexpr double long_enough_steps = 1e3;
@@ -90,7 +90,7 @@ std::vector<Trial> run_event_driven(const Pilot& pilot) {
 /// The results of a setting's trial so far.
 struct Experience {
     TrialError error;                          ///< error in its last stretch
-    double seconds = 0, reference_seconds = 0; ///< time so far in the trial and in the exact run
+    double seconds = 0, reference_seconds = 0; ///< time of the trial and of the exact run so far
     /// Whether the trial ran to its end; false if it was stopped because of its error
     bool is_whole = false;
     bool grows = false; ///< whether overlaps keep growing, so that errors grow, too

@@ -27,7 +27,7 @@ struct RunSetting {
     friend bool operator==(const RunSetting&, const RunSetting&) = default;
 };
 
-/// The scene with that setting.
+/// The scene with this setting, and without `time.accuracy`.
 SceneParameters with_setting(SceneParameters scene, const RunSetting& setting);
 
 /// Discs in equilibrium, made by the event-driven method, from which trials start.
@@ -50,8 +50,8 @@ struct Trial {
     Totals totals;                         ///< totals at the trial's end
     double overlapping_pairs_per_disc = 0; ///< simultaneous overlaps of a disc, mean over samples
     double deepest_overlap = 0;            ///< deepest overlap of all samples, in diameters
-    double core_seconds = 0;               ///< time of stepping, summed over all ranks and threads
-    double wall_seconds = 0;               ///< time of stepping, on the slowest rank
+    double core_seconds = 0;               ///< CPU time of the steps, summed over ranks and threads
+    double wall_seconds = 0;               ///< wall time of the steps on the slowest rank
     /// Discs of this rank at `early_step`, sorted by id; empty if `early_step` is 0
     std::vector<InputDisc> early;
 };

@@ -102,7 +102,7 @@ std::string reasons(const InputError& error) {
     return text;
 }
 
-/// The first undamaged checkpoint of this run in `paths`, newest first. **Collective.**
+/// The newest undamaged checkpoint of this run in `paths`, sorted newest first. **Collective.**
 std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths,
                                       const RunOptions& options, SceneParameters& scene,
                                       const Communicator& ranks) {

@@ -43,11 +43,11 @@ RestartPlan plan_restart(const RunOptions& options, const SceneParameters& scene
 /// **Collective.**
 bool has_other_checkpoints(RestartPlan& plan, const Communicator& ranks);
 
-/// Reads the newest usable checkpoint of the plan: undamaged and of the scene's run. Rank 0 reports
-/// why others are skipped. Without an input `scene` becomes the checkpoint's, with the options'
-/// overrides. Returns nothing if the run starts at step 0. Throws on every rank (exit code 2) if a
-/// named file, or all checkpoints of a folder, are unusable, if a named folder has none, if there
-/// is no input either, or if the checkpoint is later than the run's last step. **Collective.**
+/// Reads the plan's newest checkpoint that is undamaged and of the scene's run. Rank 0 reports why
+/// it skips others. Without an input `scene` becomes the checkpoint's, with the options' overrides.
+/// Returns nothing if the run starts at step 0. Throws on every rank (exit code 2) if a named file,
+/// or all checkpoints of a folder, are unusable, if a named folder has none, if there is no
+/// checkpoint and no input, or if the checkpoint is later than the run's last step. **Collective.**
 std::optional<RunStart> read_restart(const RestartPlan& plan, const RunOptions& options,
                                      SceneParameters& scene, const Communicator& ranks);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The plan of how a run begins: its scene, and whether it continues from a checkpoint. The plan
-// follows from options, the scene's text and the names of files. Planning reads no disc, and makes
-// and locks nothing. load.hpp carries out the plan.
+// follows from options, the scene's text and the names of files. Planning makes no discs, and
+// leaves no new file or lock. load.hpp carries out the plan.
 //
 // Rank 0 opens files and reads; the other ranks get the bytes, so all ranks find the same scene or
 // the same problems. No output of the run has been written when a problem is printed.

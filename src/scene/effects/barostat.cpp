@@ -4,8 +4,8 @@
 //
 // The box keeps its edges, and all radii are multiplied by one factor s. In units of the discs, the
 // box and the positions in it become smaller or larger together. The positions in units of the box
-// and the volume V = A / (s^2 <d^2>), with the mean <d^2> of the squared diameters, have
-// the weight
+// and the volume V = A / (s^2 <d^2>), with the box's area A and the mean <d^2> of the squared
+// diameters in the scene, have the weight
 //     V^N exp(-p V),   p = P <d^2> / kT,   if no two discs overlap.
 // The structure of hard discs does not depend on temperature. So velocities stay as they are, in
 // the unit of the box, and any kT gives the same result.
@@ -14,10 +14,10 @@
 // all ranks find the same one. With the discs at rest the weight is a function of V alone, so the
 // `n_moves` moves of a sync take almost no time. Each move draws a new volume V' evenly from a
 // range about the present one, and accepts it with the probability min(1, exp(-p (V' - V)) (V' /
-// V)^N) (Metropolis). During a sync V stays in a cell of a fixed partition, in which lengths differ
-// by 10 %, so that only pairs up to this distance must be known. The partitions of even and odd
-// syncs differ by half a cell. So each sync conserves the distribution exactly, and V can reach any
-// value.
+// V)^N) (Metropolis). During a sync s stays in a cell of a fixed partition, whose ends differ by a
+// factor of 1.1, so that only pairs closer than the largest diameter in the cell must be known. The
+// partitions of even and odd syncs differ by half a cell. So each sync conserves the distribution
+// exactly, and V can reach any value.
 //
 // Only + - * / and sqrt are used. The logarithm of V' / V is computed by a series, and a random
 // number with an exponential distribution decides if a move is accepted. Cost: a halo exchange and
@@ -38,9 +38,9 @@ namespace carrom {
 namespace {
 
 constexpr int n_moves = 64;
-constexpr double cell_ratio = 1.1; ///< ratio of the lengths at both ends of a cell
+constexpr double cell_ratio = 1.1; ///< ratio of the factors s at both ends of a cell
 
-/// ln(a / b) for ratios of up to 1.5, by the series of 2 artanh((a - b) / (a + b)), to 2^-53.
+/// ln(a / b) for ratios from 2/3 to 3/2, by the series of 2 artanh((a - b) / (a + b)).
 double log_ratio(double a, double b) {
     const double z = (a - b) / (a + b), square = z * z;
     double sum = 0;
@@ -56,7 +56,7 @@ double mean_squared_diameter(const SceneParameters& scene) {
     return sum / static_cast<double>(scene.n_discs);
 }
 
-/// The largest factor for which a periodic box is still slightly longer than four radii.
+/// The largest factor of the radii: the shorter edge is then slightly longer than four radii.
 double most_size(const SceneParameters& scene) {
     return scene.box.shortest() / (4 * (1 + 1e-6) * scene.radius);
 }
@@ -105,7 +105,7 @@ private:
     static constexpr DiscId no_disc = ~DiscId{0};
 
     struct Cell {
-        double low = 1, high = cell_ratio; ///< range of sizes
+        double low = 1, high = cell_ratio; ///< range of the factor s
     };
 
     double volume_at(double size) const { return volume_of_scene_ / (size * size); }
@@ -118,9 +118,9 @@ private:
         return {low, low * cell_ratio};
     }
 
-    /// The largest change of V in a move: a few times V / (N (Z - 1)), the typical compression
-    /// closest pair touches. It is the same throughout the cell, so that a move and its reverse
-    /// have the same probability.
+    /// The largest change of V in a move: a few times V / (N (Z - 1)), by which V can typically
+    /// shrink until the closest pair touches. It is the same throughout the cell, so that a move
+    /// and its reverse are proposed with the same probability.
     double range_in(const Cell& cell) const {
         const double volume = volume_at(cell.high),
                      excess = std::max(pressure_ * volume / n_discs_ - 1, 1 / std::sqrt(n_discs_));

@@ -46,15 +46,15 @@ namespace {
 /// The number of a radius; radii are numbered in ascending order.
 using SizeNumber = std::uint32_t;
 
-/// The proposals of a round. In a round the numbers of all partners differ by one distance, which
-/// is a random power of two. So pairs of near radii, which exchange easily, and
-/// pairs of far radii, which change more, are proposed equally often on each scale.
+/// The proposals of a round. In a round the numbers of all partners differ by the same distance, a
+/// random power of two, and each power is equally probable. So pairs of near radii, which exchange
+/// easily, and pairs of far radii, which change more, are proposed equally often.
 struct Proposals {
     std::uint64_t seed, sync, round;
     SizeNumber n_sizes = 0, distance = 1, shift = 0;
 
-    /// The probability that a possible pair is proposed. With more pairs, more neighbours would
-    /// count with the larger radius of their pair, so that fewer pairs would fit.
+    /// The probability that a possible pair is proposed. With more proposals, more neighbours would
+    /// count with the larger radius of their own pair, so that fewer pairs would fit.
     static constexpr double share = 0.25;
 
     Proposals(std::uint64_t seed_of_all, std::uint64_t n_syncs, std::uint64_t number, SizeNumber n)
@@ -258,7 +258,7 @@ private:
     double steps_between_;
     BodiesAtRest at_rest_;
     std::optional<SpeciesTable> table_; ///< a copy of the run's table, which shares its memory
-    std::vector<double> radii_;         ///< radii, by number of the radius
+    std::vector<double> radii_;         ///< radii in ascending order, by number
     std::vector<DiscId> holders_;       ///< the disc that has each radius, by number of the radius
     std::vector<SizeNumber> numbers_;   ///< number of the radius, by id of the disc
     std::int64_t n_accepted_ = 0;
