@@ -2,9 +2,9 @@
 // Averages over a run: how often discs collide, the pressure and the speeds, each with a standard
 // error.
 //
-// The averages follow from counts of collisions, which discs carry, and from sums over velocities
-// and impulses in fixed point. So they have the same bits for any number of ranks and threads.
-// docs/reference/report.md describes them, and docs/understanding/pressure.md explains the
+// The averages follow from counts of collisions, which are stored with the discs, and from sums
+// over velocities and impulses in fixed point. So they have the same bits for any number of ranks
+// and threads. docs/reference/report.md describes them, docs/understanding/pressure.md explains the
 // pressure. Wall and virial pressure follow from counts (Li, Nishikawa, Hoellmer, Carillo, Maggs,
 // Krauth, J. Chem. Phys. 157, 234111 (2022), equations (13c) and (19a)).
 #pragma once
@@ -19,8 +19,8 @@
 namespace carrom {
 
 /// An average and its standard error, from blocks long enough to be independent. The error is NaN
-/// for too few blocks, for a conserved average, and for one that is still changing, because a trend
-/// is not an error. All numbers are NaN if nothing is averaged.
+/// if there are too few blocks or collisions, if the average is conserved, or if it is still
+/// changing, because a trend is not an error. All numbers are NaN if nothing is averaged.
 struct Estimate {
     double value = std::numeric_limits<double>::quiet_NaN();
     double error = std::numeric_limits<double>::quiet_NaN();
@@ -31,7 +31,7 @@ struct Estimate {
     /// Always false in runs that are planned for less than a million steps.
     bool is_short = false;
     bool is_conserved = false; ///< whether all blocks agree except for rounding
-    bool is_changing = false;  ///< the halves of the run differ by more than their errors allow
+    bool is_changing = false;  ///< the run's halves differ too much, it has a trend, or discs left
     /// Mean of the first block, if the average is changing
     double first = std::numeric_limits<double>::quiet_NaN();
     /// Mean of the last block, if the average is changing
@@ -43,7 +43,7 @@ struct TensorEstimate {
     Estimate xx, xy, yy;
 };
 
-/// Units: lengths in the scene's unit, times in steps, masses 1.
+/// Lengths are in the scene's unit, times in steps; masses are 1 unless the scene gives them.
 struct Averages {
     /// The averages begin after `first_step` and cover `steps` steps
     std::int64_t first_step = 0, steps = 0;
@@ -56,7 +56,7 @@ struct Averages {
     Estimate mean_speed;
     Estimate speed_kurtosis; ///< <v^4> / <v^2>^2; 2 N / (N + 1) in equilibrium
     Estimate temperature;    ///< kT of translation, relative to the drift along periodic sides
-    /// Pressure tensor: kinetic part, plus impulse times distance, summed over pairs that collide
+    /// Pressure tensor: kinetic part, plus impulse times distance in pair collisions / (time area)
     TensorEstimate pressure_tensor;
     Estimate pressure;        ///< half of the trace of `pressure_tensor`
     Estimate compressibility; ///< compressibility factor Z = P A / (N kT)

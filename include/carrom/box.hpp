@@ -11,7 +11,7 @@ struct Box {
     double x = 0, y = 0;
 
     constexpr Box() = default;
-    constexpr Box(double side) : x(side), y(side) {} // NOLINT: a length is a square
+    constexpr Box(double side) : x(side), y(side) {} // NOLINT: one length makes a square
     constexpr Box(double width, double height) : x(width), y(height) {}
 
     constexpr bool is_square() const { return x == y; }

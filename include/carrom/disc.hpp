@@ -11,7 +11,7 @@ struct Disc {
     std::uint64_t id = 0;              ///< 0 to N - 1
     double x = 0, y = 0;               ///< the centre at the present step; SceneFacts has the box
     double vx = 0, vy = 0;             ///< velocity, length per step
-    double spin = 0;                   ///< angular velocity per step, counterclockwise; 0 if smooth
+    double spin = 0;                   ///< radians per step, counterclockwise; 0 for smooth discs
     std::uint64_t wall_collisions = 0; ///< collisions with walls since the scene's start
     std::uint64_t pair_collisions = 0; ///< collisions with other discs since the scene's start
 

@@ -50,7 +50,7 @@ public:
     void agree_on(const std::vector<Problem>& problems) const;
 
     /// Runs `body` on every rank and returns the largest exit code of all ranks, for main. A rank's
-    /// code is the result of `body`, or that of an InputError or CollectiveError, whose text rank 0
+    /// code is the result of `body`, or the code of an InputError or CollectiveError, which rank 0
     /// prints to standard error. Any other exception ends all ranks with code 70. **Collective.**
     int run(const std::function<int()>& body) const;
 

@@ -29,7 +29,7 @@ struct Options {
     /// Receives on rank 0 each line that `carrom run` prints when it starts, such as warnings and
     /// the method that a pilot run has chosen. If empty, these lines are dropped.
     std::function<void(const std::string& line)> messages{};
-    /// Count crossings of periodic sides, for `read_images`; takes 16 bytes a disc in such boxes
+    /// Whether to count crossings of periodic sides, for `read_images`; costs 16 bytes a disc
     bool counts_images = false;
 };
 
@@ -107,7 +107,7 @@ public:
     void read_images(std::span<std::int32_t> lengths) const;
 
     /// Radius, mass and species of all discs of the scene, by id. If discs exchange their radii
-    /// (`effects.swap`), the radii are those of the present step. Not collective.
+    /// (`effects.swap`), `radius` is the present one. Not collective.
     std::vector<DiscKind> kinds() const;
 
     /// Replaces positions, velocities or spins of this rank's discs between two steps. `discs` are
@@ -128,8 +128,8 @@ public:
     /// for pairs that touch, together about as much as a step. **Collective.**
     Totals totals() const;
 
-    /// Averages since this object began to step, or since `restart_averages`. Costs a pass over the
-    /// discs. **Collective.**
+    /// Averages since `output.averages_from_step`, `restart_averages` or `change_discs`;
+    /// checkpoints and copies continue them. Costs a pass over the discs. **Collective.**
     Averages averages() const;
     void restart_averages(); ///< restarts the averages; **Collective.**
 

@@ -37,8 +37,8 @@ struct Totals {
     // Energy lost by restitution since this object began to step, in the event-driven method.
     // Collisions of discs that have just collided lose none; `guarded_collisions` counts these.
     double energy_taken = 0;
-    std::uint64_t guarded_collisions = 0; ///< made elastic so, except in contacts at rest
-    double energy_spared = 0;             ///< energy that guarded collisions would have lost
+    std::uint64_t guarded_collisions = 0; ///< number of these collisions, except contacts at rest
+    double energy_spared = 0;             ///< energy that restitution would have taken from these
     std::uint64_t overlapping_pairs = 0;  ///< pairs that now overlap by more than the tolerance
     /// Depth of the deepest overlap; 2 r if two discs are in one place
     double deepest_overlap = 0;
@@ -48,7 +48,7 @@ struct Totals {
     std::uint64_t chained_discs = 0; ///< discs that touch at least two others
     double kinetic_energy = 0;       ///< kinetic energy of translation, without rotation
     double rotational_energy = 0;    ///< energy of rotation of rough discs
-    /// Potential energy. The part of gravity is 0 at the walls towards which it pulled at the start
+    /// Potential energy; gravity's part is 0 where the walls towards which it pulls are at step 0
     double potential_energy = 0;
     double momentum_x = 0, momentum_y = 0;
     std::array<std::uint64_t, 4> departed{}; ///< number of discs that left through each open side:

@@ -59,8 +59,8 @@ struct PlacesAtRest {
     static double vx_of(const DiscState& disc) { return disc.vx; }
 };
 
-/// Finds a disc's cell. Its members are copies, so that the compiler keeps them in registers while
-/// cells are stored.
+/// Finds the cell of a disc. The members are copies, so that the compiler keeps them in registers
+/// while cells are stored.
 template <class Places> struct CellFinder {
     Places places;
     GridGeometry geometry;
@@ -99,8 +99,8 @@ GridGeometry make_geometry(const Extent& extent, Axis axis, double reach, std::s
     // The width of about `n_cells` square cells. In a narrow tube they form a single row.
     const double sparse_width = std::max(std::sqrt(width / n_cells) * std::sqrt(height),
                                          std::max(width, height) / n_cells);
-    // Cells of half this width save a third of the pair tests, if cells as wide as the reach would
-    // contain many discs.
+    // Cells half as wide as the reach save a third of the pair tests, if cells as wide as the reach
+    // would contain many discs.
     const double discs_per_reach = reach / std::max(sparse_width, reach * 1e-3);
     // The lower limit keeps the reach of fast discs, counted in cells, within the range of int.
     const double wanted = cell_width > 0 ? std::max(cell_width, 1e-6) * reach
@@ -296,8 +296,8 @@ CellGrid::Cell CellGrid::cell_of(LocalIndex own_index) const {
 std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
     constexpr double margin = 1e-6; // because cells' ends are rounded
     const auto corner = turned(geometry_.axis, geometry_.low, geometry_.across_low);
-    // The range of those of n cells that lie within low .. high; the first cell
-    // begins at `origin`. The first and the last cell also contain discs from outside of the grid.
+    // The range of cells that lie within low .. high, of n cells in a line from `origin`. The first
+    // and the last cell also contain discs from outside of the grid, so finite bounds exclude them.
     const auto cells_within = [this](double low, double high, double origin, int n) {
         const double from = (low - origin) / geometry_.cell_width + margin,
                      to = (high - origin) / geometry_.cell_width - margin;

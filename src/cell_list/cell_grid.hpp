@@ -7,8 +7,8 @@
 // neighbours in memory. Discs of the halo stay in the order of arrival. They have their own slots,
 // in those columns that contain halo discs. For each slot the grid stores the disc's free flight in
 // single precision, in units of cells and windows, so that nothing can overflow. Flights only serve
-// to reject pairs; the predicate in double precision decides. Cost: 16 bytes a disc and 4 bytes a
-// cell.
+// to reject pairs; a test in double precision decides about the others. Cost: 16 bytes a disc and
+// 4 bytes a cell.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ namespace carrom {
 struct GridGeometry {
     Axis axis = Axis::x;
     double low = 0, across_low = 0; ///< lower ends of the first column and row
-    double cell_width = 1;          ///< width of cells; change it by set_cell_width
+    double cell_width = 1;          ///< width of cells; change it with set_cell_width
     int n_columns = 1, n_rows = 1;
     int n_reach = 1; ///< discs that can collide are at most this many cells apart
 
@@ -98,8 +98,8 @@ struct Companions {
 class CellGrid {
 public:
     /// Sorts `own` by cells at the time `anchor`. Flights begin at `time` and last for `duration`.
-    /// In a periodic box the position of the disc's image is used. The grid then has no halo until
-    /// add_halo is called.
+    /// In a periodic box the position of the disc's image in the box is used. The grid then has no
+    /// halo until add_halo is called.
     void sort(std::span<DiscState> own, const GridGeometry& geometry, double anchor, double time,
               double duration, int n_threads, const Periods& periods = {},
               const Companions& companions = {});
@@ -174,8 +174,8 @@ public:
     };
     Cell cell_of(LocalIndex own_index) const;
 
-    /// Ascending ranges that contain every own disc outside of `inner` at the anchor. They also
-    /// contain many discs inside.
+    /// Ascending ranges of slots that contain every own disc that is outside of `inner` at the time
+    /// of the anchor. They also contain many discs that are inside.
     std::vector<SlotRange> outside(const Inside& inner) const;
 
     /// Divides the columns into `n_shares` shares with about equally many own discs. Returns the
@@ -222,8 +222,8 @@ private:
         return {starts[base + static_cast<std::size_t>(low)],
                 starts[base + static_cast<std::size_t>(high) + 1]};
     }
-    /// Calls visit for the cell of the disc at the window's start and for the cells in the same row
-    /// of the columns beside it.
+    /// Calls visit with the index of the disc's cell at the window's start, and with the indices of
+    /// the cells in the same row of the columns beside it.
     template <class Visit> void for_each_place_around(LocalIndex index, const Visit& visit) const {
         if (index >= n_own_) return;
         const int column = clamped_column(lanes_[index]);
@@ -234,7 +234,7 @@ private:
     }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(geometry_.n_rows); }
 
-    // `Places` computes a disc's position: the stored one, or the one of its image in the box.
+    // `Places` computes a disc's position: the stored one, or the position of its image in the box.
     void sort(std::span<DiscState> own, int n_threads, const Companions& companions);
     template <class Places>
     void sort(const Places& places, std::span<DiscState> own, int n_threads,
@@ -253,7 +253,7 @@ private:
     double anchor_ = 0, time_ = 0, duration_ = 1;
     bool has_flights_ = false;
     std::size_t n_own_ = 0;
-    RawVector<std::uint32_t> cell_start_; ///< first slot of each cell, and the end
+    RawVector<std::uint32_t> cell_start_; ///< first slot of each cell, and the last cell's end
     std::size_t lane_length_ = 0;         ///< own discs plus padding for whole vectors
     RawVector<float> lanes_; ///< x, y, vx, vy of own discs, one array after the other; the sorter
                              ///< borrows this memory
@@ -263,8 +263,8 @@ private:
     RawVector<float> halo_lanes_; ///< x, y, vx, vy of halo discs, by slot
 
     std::vector<LocalIndex> apart_;
-    std::vector<float> apart_lanes_; ///< x, y, vx, vy of these discs
-    double longest_flight_ = 0;      ///< longest of their flights, in cells
+    std::vector<float> apart_lanes_; ///< x, y, vx, vy of the discs in `apart_`
+    double longest_flight_ = 0;      ///< longest flight of these discs, in cells
 };
 
 } // namespace carrom

@@ -5,7 +5,7 @@
 // in its own cells, and lists the few discs that lie in other threads' cells. Then one pass moves
 // the discs: nearly all move only a few places; those that move farther are copied beforehand.
 // Cost: two passes. The sorter borrows the memory of the flights, which are written later, so it
-// needs no memory of its own.
+// needs little memory of its own.
 #pragma once
 
 #include <cstdint>
@@ -47,16 +47,16 @@ struct SortMemory {
 
 class DiscSorter {
 public:
-    /// Sorts `discs` by `find_cell(disc)`, which is below the number of cells. Writes the new order
-    /// to `memory.order()`. Writes the first place of each cell, and the end of the last one, to
-    /// `cell_start`. `n_columns` determines the length of the ring buffer.
+    /// Determines the order of `discs` by `find_cell(disc)`, which is below the number of cells.
+    /// Writes the order to `memory.order()`. Writes the first place of each cell, and the end of
+    /// the last one, to `cell_start`. `n_columns` determines the length of the ring buffer.
     template <class CellOf>
     void find_order(std::span<const DiscState> discs, const CellOf& find_cell,
                     std::size_t n_columns, int n_threads, RawVector<std::uint32_t>& cell_start,
                     SortMemory memory);
 
-    /// Gives each thread the far-moving discs that go to its places. Returns false if there are
-    /// many: the discs are then not nearly sorted, and `rearrange` is faster.
+    /// Assigns each disc that moves far to the thread whose share contains its new place. Returns
+    /// false if there are many: the discs are then not nearly sorted, and `rearrange` is faster.
     bool share_out_travellers();
     /// Moves discs to their new places, in ascending order. Calls placed(i) when place i holds its
     /// disc; from then on the order up to i is no longer needed.
@@ -73,14 +73,14 @@ private:
     struct Sorter {
         std::size_t first_disc = 0, end_disc = 0;
         std::uint32_t first_cell = 0, end_cell = 0;
-        std::vector<LocalIndex> strays; ///< discs of this share in cells of others, ascending
+        std::vector<LocalIndex> strays; ///< discs of this share in other shares' cells, ascending
     };
-    /// The state of a thread while it moves discs to their sorted places, for its share of these.
+    /// The data of a thread while it moves discs to the sorted places of its share.
     struct Carrier {
         DiscStates passed;                ///< ring buffer of the discs overwritten last
         DiscStates travellers;            ///< discs that move far; copied beforehand
-        std::vector<LocalIndex> arrivals; ///< new places of `travellers`, ascending, and an end
-        /// New places of far-moving discs that go to other threads, unsorted
+        std::vector<LocalIndex> arrivals; ///< new places of `travellers`, ascending; an end mark
+        /// New places of the far-moving discs that this thread has found, unsorted
         std::vector<LocalIndex> sent;
     };
 
@@ -108,8 +108,8 @@ private:
 
     int n_threads_ = 1;
     std::size_t n_discs_ = 0;
-    std::vector<Sorter> sorters_;     ///< by thread
-    std::vector<Carrier> carriers_;   ///< by thread
+    std::vector<Sorter> sorters_;     ///< one for each thread
+    std::vector<Carrier> carriers_;   ///< one for each thread
     std::size_t n_passed_ = 1;        ///< length of the ring buffer, a power of two
     std::size_t most_travellers_ = 0; ///< limit of far-moving discs in each share
     bool are_in_disorder_ = false;    ///< whether too many discs move far

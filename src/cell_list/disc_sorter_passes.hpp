@@ -18,8 +18,8 @@ inline void prefetch(const DiscState& disc) {
         reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(&disc) + ahead));
 }
 
-/// Gives each thread a share of the discs, and the cells from the start of its share to the start
-/// of the next one. The start is the median cell of the share's first five discs, because a single
+/// Gives each thread a share of the discs, and the cells from its first cell to the next thread's
+/// first cell. The first cell is the median cell of the share's first five discs, because a single
 /// disc may have moved far.
 template <class CellOf>
 void DiscSorter::share_out(std::span<const DiscState> discs, const CellOf& find_cell,

@@ -22,7 +22,7 @@ void HaloCells::set_cell(std::size_t disc, int column, int row) {
     std::atomic_ref(column_[order_[disc]]).store(0, std::memory_order_relaxed);
 }
 
-/// Gives cells to those columns that contain discs, and returns the number of cells.
+/// Sets the first cell of each column that contains discs, and returns the number of cells.
 std::uint32_t HaloCells::number_columns(std::uint32_t n_rows) {
     std::uint32_t n_cells = 0;
     for (std::uint32_t& column : column_)
@@ -30,8 +30,8 @@ std::uint32_t HaloCells::number_columns(std::uint32_t n_rows) {
     return n_cells;
 }
 
-/// Replaces the number of discs of each cell by the cell's first slot. The number of cell k is
-/// stored in `start_[k + 1]`.
+/// Replaces the number of discs of each cell by the cell's first slot. Cell k has the entry
+/// `start_[k + 1]`.
 void HaloCells::turn_counts_into_starts(int n_threads) {
     const std::size_t n_cells = start_.size() - 1;
     const auto n_shares = static_cast<std::size_t>(n_threads);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vector whose lanes all hold one number, as a member of a struct. Vectors of SVE have no fixed
+// A vector whose lanes are all equal, as a member of a struct. Vectors of SVE have no fixed
 // size and cannot be members, so on SVE machines this type stores the number and spreads it over
 // the lanes at each use. On others it stores the vector, which saves instructions.
 //

@@ -27,8 +27,8 @@ enum class Invariant : int {
     counters,
     motion,  ///< the disc's velocity and spin have changed only in collisions
     overlap, ///< no pair overlaps, unless the time-stepped method allows it
-    energy,  ///< energy is unchanged except by effects: of discs linked by collisions, and of all
-             ///< discs
+    energy,  ///< only effects change the energy of discs that collisions link, and the energy of
+             ///< all discs
 };
 
 /// Thrown on every rank with the same contents; exit code 70. `discs_around`, sorted by id, has the

@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// A disc's squared speed, or twice its energy, before and after a step. `allowance`: energy of
-/// this kind that effects may have added.
+/// A disc's squared speed, or twice its energy, before and after a step. `allowance` is the most
+/// that effects may have added to this number.
 struct SharedEnergy {
     DiscId disc = 0;
     double before = 0, after = 0;
@@ -28,9 +28,9 @@ struct EnergyChange {
     double share = 0, bound = 0;
 };
 
-/// Links `discs` by `pairs` to clusters and returns the worst one; none if each kept its energy to
-/// within 64 ulp for each disc and collision (rounding). Discs that are only in `pairs` are
-/// ignored. With `may_fall` collisions may lose any energy.
+/// Joins discs that `pairs` link into clusters and returns the one with the worst change; none if
+/// no relative change exceeds 64 2^-53 (rounding) for each disc, collision and reflection. Discs
+/// that are only in `pairs` are ignored. With `may_fall` clusters may lose any amount of energy.
 std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> discs,
                                                 std::span<const std::pair<DiscId, DiscId>> pairs,
                                                 bool may_fall = false);

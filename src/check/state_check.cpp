@@ -26,7 +26,7 @@ struct Part {
     std::int64_t end_of_micro_step = 0;
     std::uint64_t is_wall = 0;
     double impulse = 0; ///< impulse of a collision with a wall; 0 for a departure
-    double work = 0;    ///< work of growing surfaces
+    double work = 0;    ///< energy from growing surfaces, 0 for the higher id of a pair
 };
 
 bool is_finite(const DiscState& disc) {
@@ -34,7 +34,7 @@ bool is_finite(const DiscState& disc) {
            std::isfinite(disc.vy) && std::isfinite(disc.tau);
 }
 
-/// The disc in the box's coordinates; equal to the stored state if the frame is at rest.
+/// The disc in the box's coordinates; the stored state itself if states have no moving frame.
 DiscState as_seen(const DiscState& disc, const Frame& frame, double time,
                   double micro_steps_since_sync) {
     if (!frame.is_moving || disc.has_departed()) return disc;
@@ -124,7 +124,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     record_speeds();
     const std::int64_t last_sync = micro_steps_done_ / scene_.sync_every * scene_.sync_every;
     for (std::size_t i = 0; i < known_.size(); ++i)
-        // The disc's straight flight began at the sync that changed its velocity or returned it.
+        // The straight flight began at the sync that changed the velocity or returned the disc.
         if (were_rewritten() || (before_[i].disc.has_departed() && !known_[i].disc.has_departed()))
             known_[i].free_from = std::max(known_[i].free_from, last_sync);
     take_log(log);
@@ -170,14 +170,14 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
                        first.rank, std::move(discs), std::move(spins), std::move(radii));
 }
 
-/// The walls at the last check. Moving walls are at their positions of that time.
+/// The walls at the last check; walls that move at constant speed are where they were at step 0.
 Extent StateCheck::walls_before() const {
     Effects effects = effects_;
     for (Boundary& side : effects.boundaries) side.speed = 0;
     return extent_at(effects, box_before_, static_cast<double>(micro_steps_before_));
 }
 
-/// The discs of this rank's slab at the last check.
+/// The discs in the box at the last check, in scene units, from this rank's slab of ids.
 std::vector<SceneDisc> StateCheck::discs_before() const {
     const auto clock = static_cast<double>(micro_steps_before_ % scene_.sync_every);
     const auto unit = static_cast<double>(scene_.micro_steps);
@@ -218,8 +218,8 @@ Finding StateCheck::first_other_radius(std::span<const DiscState> own,
     return {};
 }
 
-/// Sends every disc to the rank that keeps its record. The finding's `value` is the number of times
-/// that the disc is owned.
+/// Sends every disc to the rank that keeps its record. The finding's `value` is the number of ranks
+/// that own the disc.
 Finding StateCheck::take_records(std::span<const DiscState> own, std::span<const double> spins,
                                  std::span<const DiscState> departed, const Frame& frame,
                                  double time) {
@@ -335,7 +335,7 @@ Finding StateCheck::first_overlap(const LocalView& now) const {
     return first;
 }
 
-/// Gets the time when each disc last collided from the ranks that keep the records, and drops the
+/// Gets the time of each disc's last collision from the ranks that keep the records, and drops the
 /// pairs whose overlap the time-stepped method allows.
 Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
     for (const bool is_first : {true, false}) {

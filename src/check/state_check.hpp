@@ -11,18 +11,18 @@
 // has flown straight, so discs that were apart would have collided before they overlap.
 //
 // Effects are taken into account. Discs are compared in the box's coordinates. The check computes
-// how discs fall and slow down, lets discs of an ideal gas overlap, and lets inelastic collisions
-// lose energy. Growing discs push each other: the work is the impulse times the speed of the
-// surfaces. The energy from thermal and moving walls is unknown beforehand, so discs that met such
-// a wall have no energy check. Other walls give or take at most the impulse times their largest
-// speed. An acceleration that varies in time is treated in a frame that falls with its varying part
-// since the last inspection: in this frame it has no effect, but walls move. Discs that have
-// departed through open sides stay in the record. The log has each departure as a collision with a
-// wall without impulse. So departures and returns by inlets determine whether a disc is in the box.
-// The energy that departing and returning discs carry is unknown, so in such a step neither their
-// energy nor the total energy is checked. Energies include masses and spins. Cost: 256 bytes a
-// disc; in each step every disc and collision is sent once, and collisions with their discs to rank
-// 0.
+// how discs fall and slow down, allows overlaps of discs of an ideal gas, and allows inelastic
+// collisions to lose energy. Growing discs push each other: the work is the impulse times the speed
+// of the surfaces. The energy from thermal and moving walls is unknown beforehand, so the energy of
+// discs that met such a wall is not checked. Other walls give or take at most the impulse times
+// their largest speed. If an acceleration varies in time, the check uses a frame that falls with
+// the varying part since the last inspection: in this frame that part has no effect, but walls
+// move. Discs that have departed through open sides stay in the record. The log has each departure
+// as a collision with a wall without impulse. So departures and returns by inlets determine whether
+// a disc is in the box. The energy that departing and returning discs carry is unknown, so in such
+// a step neither their energy nor the total energy is checked. Energies include masses and spins.
+// Cost: 256 bytes a disc. In each step every disc is sent to the rank that keeps its record, every
+// collision to the ranks of its discs and to rank 0, and discs that have collided also to rank 0.
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@
 
 namespace carrom {
 
-/// Numbers in the order of the own discs; empty in scenes without such numbers.
+/// Numbers of this rank's discs, in the order of the discs; empty in scenes without such numbers.
 struct CheckedColumns {
     std::span<const double> spins{};         ///< spins per micro-step
     std::span<const double> swapped_radii{}; ///< present radii, if discs exchange radii
@@ -80,9 +80,9 @@ private:
         /// Number of the micro-step from which on the disc has flown straight
         std::int64_t free_from = 0;
         std::uint64_t walls = 0, pairs = 0; ///< collisions of the disc since the last inspection
-        std::uint64_t departures = 0;       ///< departures, which are included in `walls`
-        double wall_impulse = 0;            ///< total impulse from walls
-        double work = 0; ///< work of growing surfaces on this disc, per micro-step
+        std::uint64_t departures = 0;       ///< departures since then, which `walls` includes
+        double wall_impulse = 0;            ///< total impulse from walls since then
+        double work = 0; ///< energy from growing surfaces since then; a pair's is at the lower id
         int owner = -1;
     };
     struct Suspect {
@@ -147,7 +147,7 @@ private:
     double work_of_walls(const Known& known) const;
     double work_of_walls() const;
     Extent walls_before() const;
-    /// The share of energy that drag has left since the last check; next: micro-steps since then.
+    /// Share of energy that drag leaves since the last check; `stretch`: micro-steps since then.
     double energy_left() const;
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
     double n_syncs_since(std::int64_t micro_step) const {
@@ -164,15 +164,15 @@ private:
     bool may_have_met_seam(std::size_t i) const;
 
     int slab_of_disc(DiscId id) const;
-    /// The rounding error of positions: `n_ulps` ulp of the box length, plus the flight during the
-    /// rounding error of a time.
+    /// The rounding error of positions: `n_ulps` ulp of the box length, plus the distance flown
+    /// during the rounding error of a time.
     double blur(double n_ulps) const;
 
     const SceneParameters& scene_;
     Effects effects_; ///< times in micro-steps
     FixedBodies fixed_bodies_;
     SpeciesTable species_;
-    /// Motion since the last inspection due to an acceleration that changes in time
+    /// Motion along x and y since the last inspection, from the varying part of the acceleration
     std::array<Swayed, 2> swayed_{};
     double total_mass_ = 0, smallest_mass_ = 1;
     /// Largest speed of vibrating walls, and their largest acceleration towards a disc
@@ -181,14 +181,14 @@ private:
     double work_of_images_ = 0; ///< work of images on this rank since the last inspection
     /// Largest speed along y of the discs between sheared sides, now or at the last inspection
     double fastest_up_ = 0;
-    /// Energies besides the kinetic one, except those that change only at syncs.
+    /// Energies besides the kinetic energy; energies that change only at syncs are left out.
     std::vector<OtherEnergy> energies_;
     /// Whether other energies, or the work along a disc's path, depend on x and on y
     bool depends_on_x_ = false, depends_on_y_ = false;
     bool may_lose_energy_ = false, walls_give_energy_ = false, surfaces_give_energy_ = false;
     bool have_open_sides_ = false, have_inlets_ = false;
     bool surfaces_rub_ = false; ///< walls or fixed bodies have friction, which changes spins
-    bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< see CheckAllowance
+    bool acts_at_syncs_ = false, acts_before_flights_ = false; ///< as in CheckAllowance
     /// Energy that effects at syncs gave on this rank, now and at the last inspection
     double energy_given_ = 0, energy_given_before_ = 0;
     Box box_, box_before_;              ///< sides of the box now and at the last inspection

@@ -95,8 +95,8 @@ Finding StateCheck::first_other_energy(std::span<const DiscState> own, Log log) 
     return finding;
 }
 
-/// Compares the energy of all discs with that at the check's start, or at the last check if effects
-/// take or give energy. **Collective.**
+/// Compares the energy of all discs with the energy at the check's start, or at the last check if
+/// effects take or give energy. **Collective.**
 Finding StateCheck::first_other_total(std::span<const DiscState> own,
                                       const std::vector<SharedEnergy>& mine) {
     if (walls_give_energy_ || surfaces_give_energy_) return {};
@@ -148,7 +148,7 @@ bool StateCheck::have_any_moved() const {
     return communicator_.any(is_any);
 }
 
-/// A disc's energy before and after the step, with the energy that effects may have added.
+/// Twice a disc's energy before and after the step, and twice what effects may have added to it.
 SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     const Known& known = known_[i];
     SharedEnergy energy = {first_id_ + i,
@@ -189,8 +189,8 @@ double StateCheck::work_of(const Collision& collision) const {
                              radii);
 }
 
-/// Updates the bounds of speeds, if effects make discs faster. If the acceleration varies in time,
-/// updates the motion of the falling frame. **Collective.**
+/// Updates the bounds of speeds, and the motion of the falling frame since the last inspection.
+/// Does nothing in scenes without effects. **Collective.**
 void StateCheck::record_speeds() {
     if (!scene_.effects.are_any()) return;
     swayed_ = Sway::between(effects_.acceleration(), static_cast<double>(micro_steps_before_),
@@ -206,7 +206,7 @@ void StateCheck::record_speeds() {
     fastest_ = std::max(fastest_, std::sqrt(communicator_.max(square)) + wall_speed_);
 }
 
-/// The largest potential energy of a mass of 1, from effects that act all the time.
+/// The largest potential energy of a mass of 1 in the box, without effects that act only at syncs.
 double StateCheck::largest_energy_of_place() const {
     double sum = 0;
     for (const OtherEnergy& energy : energies_)
@@ -246,8 +246,8 @@ DiscState StateCheck::in_swaying_frame(const DiscState& seen) const {
 }
 
 /// Energy that a disc gained from effects on its path, except through its potential energy, plus
-/// the jump of that energy at periodic sides. If the disc moves less than a quarter of the box
-/// between two inspections, the number of crossings is known; otherwise the result is infinite.
+/// the jump of the potential energy at periodic sides. If the disc moves less than a quarter of the
+/// box between two inspections, the number of crossings is known; else the result is infinite.
 double StateCheck::energy_of_way(std::size_t i) const {
     if (!depends_on_x_ && !depends_on_y_) return 0;
     const DiscState &then = before_[i].disc, &now = known_[i].disc;
@@ -266,8 +266,8 @@ double StateCheck::energy_of_way(std::size_t i) const {
            work_on_way(effects_, {unwrapped.x - then.x, unwrapped.y - then.y, species_.of(now.id)});
 }
 
-/// Twice the energy that contacts at rest may add, at the speed ContactGuard::least_departure. A
-/// disc that slides along the inner face of an arc is pressed to it because its path is curved.
+/// Twice the energy that a disc may gain by leaving walls with ContactGuard::least_departure. Along
+/// the inner face of an arc the curved path adds to the acceleration that presses the disc to it.
 double StateCheck::resting_gain(const Known& known) const {
     const Acceleration g = effects_.acceleration();
     const SizeAndMass& body = species_.of(known.disc.id);
@@ -287,8 +287,8 @@ double StateCheck::work_of_walls(const Known& known) const {
     return 1.01 * speed_of_walls() * known.wall_impulse / static_cast<double>(scene_.micro_steps);
 }
 
-/// The speed of vibrating walls. If the frame falls since the last inspection, all walls move in
-/// it.
+/// The largest speed of walls per micro-step. In a frame that falls with a varying acceleration all
+/// walls move.
 double StateCheck::speed_of_walls() const {
     const Acceleration g = effects_.acceleration();
     if (!g.sways()) return wall_speed_;

@@ -63,7 +63,7 @@ Finding StateCheck::first_out_of_place(const LocalView& now) const {
     return first.value_or(Finding{});
 }
 
-/// The distance between a departed disc and the nearest line a radius outside of an open side.
+/// Distance of a departed disc from the nearest line that lies one radius outside an open side.
 double StateCheck::from_departure(const DiscState& disc) const {
     const double radius = species_.of(disc.id).radius;
     double least = std::numeric_limits<double>::infinity();

@@ -19,7 +19,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Neighbour {
     SceneDisc of;
-    double order = infinity; ///< squared distance; negative for discs that the list must contain
+    double order = infinity; ///< squared distance from the finding's disc; negative: always listed
 };
 using Neighbours = std::array<Neighbour, most_around>;
 using Struck = std::array<DiscId, most_struck>;

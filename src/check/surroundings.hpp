@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds discs around one that breaks an invariant, enough for a scene that reproduces the error.
+// Collects discs around a disc that breaks an invariant, so that a scene can repeat the error.
 #pragma once
 
 #include <span>
@@ -19,8 +19,8 @@ struct SceneDisc {
     double spin = 0;
 };
 
-/// Returns about a dozen discs in the order of ids: those of the finding, those that collided with
-/// them in `log`, and the nearest ones. `discs` are this rank's share; on rank `keeper` they
+/// Returns about a dozen discs in the order of ids: the finding's discs, the discs that collided
+/// with them in `log`, and the nearest discs. `discs` are this rank's share; on rank `keeper` they
 /// include the finding's disc. All ranks get the same list. **Collective.**
 std::vector<SceneDisc> discs_around(const Finding& finding, std::span<const SceneDisc> discs,
                                     int keeper, std::span<const Collision> log,

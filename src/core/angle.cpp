@@ -17,7 +17,7 @@ double wrapped_angle(double angle) {
     const double rest = angle - turn * std::floor(angle / turn + 0.5);
     return rest > std::numbers::pi    ? std::numbers::pi
            : rest < -std::numbers::pi ? -std::numbers::pi
-                                      : rest; // because a rounded result may exceed pi
+                                      : rest; // clamped, because rounding may lead beyond pi
 }
 
 /// Uses the Taylor series for a quarter of the angle, whose neglected terms are below 2^-60. The

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Angles and directions, computed only with + - * / so that they have the same bits on every
-// machine.
+// Angles and directions, computed only with + - * / and floor, so that they have the same bits on
+// every machine.
 #pragma once
 
 #include "core/random_numbers.hpp"
@@ -10,8 +10,8 @@ namespace carrom {
 /// Maps an angle in radians into [-pi, pi] by adding or subtracting whole turns.
 double wrapped_angle(double angle);
 
-/// Cosine and sine of an angle in [-pi, pi], with errors below 2e-15. Fifty times as fast as the
-/// correctly rounded `rounded_sine`.
+/// Cosine and sine of an angle in [-pi, pi], with absolute errors below 2e-15. It is fifty times as
+/// fast as the correctly rounded `rounded_sine`.
 Direction direction_of(double angle);
 
 /// A random angle, uniform in [-pi, pi).

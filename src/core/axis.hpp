@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two axes. The box is cut into strips across its longer side (x in a square), and cells are
-// ordered along this side. Code for strips and cells uses coordinates along it and across it, so
-// the code is the same for both axes.
+// The two axes. The strips of ranks follow each other along the box's longer side (x in a square),
+// in sheared boxes along y, and cells are ordered along the same axis. Code for strips and cells
+// uses coordinates along this axis and across it, so it is the same for both axes.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ enum class Axis : std::size_t { x = 0, y = 1 };
 
 constexpr Axis other_axis(Axis axis) { return axis == Axis::x ? Axis::y : Axis::x; }
 
-/// The axis along which strips follow each other.
+/// The axis of the longer side. Strips follow each other along it, except in sheared boxes.
 constexpr Axis longer_axis(const Box& box) { return box.y > box.x ? Axis::y : Axis::x; }
 
 template <class Number>
@@ -24,7 +24,7 @@ template <class Number>
 }
 constexpr double along(Axis axis, const Box& box) { return along(axis, box.x, box.y); }
 
-/// Turns (x, y) into (along, across), and (along, across) into (x, y).
+/// Converts (x, y) to (along, across) for strips along `axis`, or (along, across) back to (x, y).
 template <class Number> constexpr std::pair<Number, Number> turned(Axis axis, Number x, Number y) {
     return axis == Axis::x ? std::pair(x, y) : std::pair(y, x);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The box in messages: "10", or "10 x 5". Both lengths use the same format of numbers.
+// Formats a box in messages: "10" for a square, or "10 x 5". The number format is for both lengths.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ template <> struct fmt::formatter<carrom::Box> : fmt::formatter<double> {
 
 namespace carrom {
 
-/// The text "side 10", or "sides 10 and 5".
+/// The text "side 10" for a square box, otherwise a text such as "sides 10 and 5".
 inline std::string sides_text(const Box& box) {
     return box.is_square() ? fmt::format("side {}", box.x)
                            : fmt::format("sides {} and {}", box.x, box.y);

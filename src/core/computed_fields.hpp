@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of discs that trajectories can contain but states do not store, because they are computed
-// from neighbouring discs. Scenes, trajectories and readers use the table below. A new field needs
-// a line there, and code in `computed_numbers` (simulation/disc_order.hpp).
+// Values for each disc that trajectories can contain but states do not store, because they are
+// computed from neighbouring discs. Scenes, trajectories and readers of files use the table below.
+// A new field needs a line there, and code in `computed_numbers` (simulation/disc_order.hpp).
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ inline constexpr std::array<ComputedField, 2> computed_field_table = {
     {{"psi6", {"psi6_real", "psi6_imaginary"}, false},
      {"neighbours", {"neighbours", nullptr}, true}}};
 
-/// For each field of the table, in order, whether the field is requested.
+/// For each field of the table, in order, whether a trajectory contains the field.
 using ComputedFieldSet = std::array<bool, computed_field_table.size()>;
 
 inline constexpr std::size_t n_computed_numbers = [] {
@@ -29,7 +29,7 @@ inline constexpr std::size_t n_computed_numbers = [] {
     for (const ComputedField& field : computed_field_table) n += field.width();
     return n;
 }();
-/// The numbers of all fields of one disc, in the order of the table.
+/// The values of all fields for one disc, in the order of the table.
 using ComputedNumbers = std::array<double, n_computed_numbers>;
 
 } // namespace carrom

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Marks the functions that kernels call for a pair of discs. Compilers for GPUs need a keyword
-// before each such function; for other compilers the macro is empty. These functions are inline,
-// and their arguments and results are plain data.
+// Marks functions that GPU kernels may call. Compilers for GPUs need a keyword before each such
+// function; for other compilers the macro is empty. These functions are inline, and their arguments
+// and results are plain data.
 #pragma once
 
 #ifdef __CUDACC__

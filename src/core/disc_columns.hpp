@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A disc's stored numbers by name, for files that store each number as a column.
 //
-// Each number of the 64-byte state has one line in the table here. Image counts are not stored in
-// files, so they have no column.
+// Each number of the 64-byte state has one line in the table here, except the id and the image. The
+// flags `is_departed` and `has_collided` are encoded in the column of the time `tau`.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@
 
 namespace carrom {
 
-/// A column of numbers of 8 bytes, one for each disc: doubles or whole numbers.
+/// A column with one number of 8 bytes for each disc: all are doubles, or all are whole numbers.
 struct StateColumn {
     const char* name;
     const char* unit;
     bool is_real;
-    /// Writes the numbers of all discs, one after the other.
+    /// Writes this number of all `discs` to `out`, one after the other.
     void (*put)(std::span<const DiscState> discs, std::byte* out);
     void (*set)(DiscState& disc, std::uint64_t bits);
 };

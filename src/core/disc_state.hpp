@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disc's stored state: its position at its own time `tau`, and how often it has collided.
+// A disc's stored state: its position at its own time `tau`, its velocity and collision counts.
 //
-// Only collisions and stops of the disc itself, and the sync of all discs, change this state
-// (docs/understanding/method.md, section 2). It fills one cache line, because the engine reads
+// Only collisions and stops of the disc itself, and the sync of all discs, change its motion
+// (docs/understanding/method.md, section 2). A state fills one cache line, because the engine reads
 // states of single discs at random places in memory.
 #pragma once
 
@@ -32,15 +32,15 @@ struct alignas(64) DiscState {
     double tau = 0;
     DiscId id = 0;
     std::uint64_t wall_collisions : 47 = 0;
-    std::uint64_t is_departed : 1 = 0; ///< set by depart()
-    std::int64_t image_x : 16 = 0;     ///< image's displacement in box lengths (image.hpp)
+    std::uint64_t is_departed : 1 = 0; ///< set by depart(), cleared when the disc comes back
+    std::int64_t image_x : 16 = 0;     ///< the image's displacement along x, in boxes (image.hpp)
     std::uint64_t pair_collisions : 47 = 0;
-    /// Whether the disc has collided since the last sync; used only if collisions may lose energy
+    /// Whether the disc has collided since the last sync; set only with effects (contact_guard.hpp)
     std::uint64_t has_collided : 1 = 0;
     std::int64_t image_y : 16 = 0;
 
     /// Marks the disc as departed: it has left the box at (x, y) through an open side, stays at
-    /// rest there, and no longer takes part in the simulation.
+    /// rest there, and takes no part in the simulation unless an inlet brings it back.
     void depart() {
         vx = vy = tau = 0;
         is_departed = 1;
@@ -51,7 +51,7 @@ struct alignas(64) DiscState {
     CARROM_DEVICE double y_at(double time) const { return y + vy * (time - tau); }
 
     /// A number that changes whenever the state changes within a sync interval, because each such
-    /// change counts a collision.
+    /// change is a collision and increases a counter.
     CARROM_DEVICE std::uint32_t version() const {
         return static_cast<std::uint32_t>(wall_collisions + pair_collisions);
     }

@@ -14,8 +14,8 @@
 namespace carrom {
 
 /// Ends the program because an invariant is broken, also in Release builds, because a wrong number
-/// must never look like a result. The handler prints and aborts; the parallel module installs a
-/// handler that aborts all ranks.
+/// must never look like a result. The default handler prints and aborts; the parallel module
+/// installs a handler that aborts all ranks.
 [[noreturn]] void fail(std::string_view text, const char* file, int line);
 using FailureHandler = void (*)(std::string_view text, const char* file, int line);
 void set_failure_handler(FailureHandler handler);

@@ -29,7 +29,7 @@ public:
     ExactSum& operator-=(const ExactSum& other);
     /// Adds `units` times the sum's unit.
     void add_units(std::int64_t units) { sum_ += units; }
-    /// The inverse of the unit; may be infinite.
+    /// The inverse of the unit; infinite for bounds below about 2e-271.
     double scale() const { return scale_; }
     void clear() { sum_ = 0; }
     double value() const;
@@ -46,7 +46,7 @@ private:
 
     Wide sum_ = 0;
     int exponent_ = 0; ///< the unit is 2^-exponent_
-    double scale_ = 1; ///< 2^exponent_, or infinite
+    double scale_ = 1; ///< 2^exponent_, or infinite if that is more than a double holds
 };
 
 /// Returns a sum of 0 with the same bound.

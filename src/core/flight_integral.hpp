@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time integral of v_a v_b over one disc's flight, in the coordinates of the box.
+// The time integral of v_a v_b (a, b: x or y) over one disc's flight, in the box's coordinates.
 //
 // Between collisions a stored velocity v is constant, and the velocity in the box follows from v by
 // the laws of falling and drag (core/frame.hpp). So the integral since the last sync is a known
@@ -8,8 +8,8 @@
 // integral may extend over many syncs.
 //
 // For a path with collisions the integral is a sum over events. A collision at time t that changes
-// v into v' adds the integral up to t for v and subtracts that integral for v'. When the integral
-// is restarted, its value for v over the whole time is added.
+// v into v' adds the integral up to t for v and subtracts that integral for v'. At the end of the
+// path, the integral up to that time for the last v is added.
 #pragma once
 
 namespace carrom {

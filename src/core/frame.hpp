@@ -17,10 +17,10 @@ struct Frame {
     /// Whether stored states differ from states in the box: by motion, clock or image
     bool is_moving = false;
     double x = 0, y = 0;   ///< position of the frame's origin in the box
-    double vx = 0, vy = 0; ///< the frame's velocity, per micro-step
+    double vx = 0, vy = 0; ///< the frame's velocity in the box, in lengths per micro-step
     double slowing = 1;    ///< rate of the frame's clock relative to the box's
-    double clock = 0;      ///< time on the frame's clock
-    Periods periods{};     ///< periods of a periodic box
+    double clock = 0;      ///< time since the last sync on the frame's clock
+    Periods periods{};     ///< periods of the box (image.hpp); 0 without periodic sides
 
     bool keeps_velocities() const {
         return vx == 0 && vy == 0 && slowing == 1 && !periods.are_moving();

@@ -56,7 +56,7 @@ CARROM_DEVICE inline bool are_shifted_alike(const DiscState& p, const DiscState&
     return p.image_x == q.image_x && p.image_y == q.image_y;
 }
 
-/// Sets the image, which is less than 16000 boxes away along each axis (Periods::home).
+/// Sets the image, which must be less than 16000 boxes away along each axis (Periods::home).
 CARROM_DEVICE inline void set_image(DiscState& disc, Image image) {
     disc.image_x = static_cast<std::int16_t>(image.x);
     disc.image_y = static_cast<std::int16_t>(image.y);
@@ -66,8 +66,8 @@ CARROM_DEVICE inline void move_image(DiscState& disc, Image by) {
     set_image(disc, {image_of(disc).x + by.x, image_of(disc).y + by.y});
 }
 
-/// The range of positions at which no image has to be considered. Along an axis that is not
-/// periodic it is infinite.
+/// A rectangle of positions, such as the box. A bound may be infinite, for example along an axis
+/// that is not periodic.
 struct Inside {
     double x_low = 0, x_high = 0, y_low = 0, y_high = 0;
 
@@ -76,9 +76,9 @@ struct Inside {
     }
 };
 
-/// Maps a coordinate into [0, period) with one rounding; the result depends only on the first two
-/// arguments. With period 0 it returns `place`. Adds the number of periods by which the coordinate
-/// increased to `*lengths`, unless `lengths` is null.
+/// Maps a coordinate into [0, period) with one rounding, or with two close to 0 or the period. With
+/// period 0 it returns `place` unchanged. Unless `lengths` is null, adds to `*lengths` the number
+/// of periods that were added to the coordinate.
 CARROM_DEVICE inline double wrapped(double place, double period, double* lengths = nullptr) {
     if (period == 0 || (place >= 0 && place < period)) return place;
     double up = -std::floor(place / period), inside = std::fma(up, period, place);
@@ -97,8 +97,8 @@ CARROM_DEVICE inline double wrapped(double place, double period, double* lengths
 /// The periods of a box, and its shear. Times are in micro-steps since the last sync.
 struct Periods {
     double x = 0, y = 0; ///< lengths of the periods; 0 along an axis without a period
-    double offset = 0;   ///< shift of the row of boxes above, along x at time 0
-    double speed = 0;    ///< speed of that row along x; 0 if boxes are at rest
+    double offset = 0;   ///< shift along x, at time 0, of the row of boxes above the box
+    double speed = 0;    ///< velocity of this row along x; 0 if boxes are at rest
 
     bool are_any() const { return x != 0 || y != 0; }
     CARROM_DEVICE bool are_moving() const { return speed != 0; }
@@ -108,8 +108,8 @@ struct Periods {
     /// The shift along x, at `time`, of the row of boxes above the box.
     CARROM_DEVICE double offset_at(double time) const { return offset + speed * time; }
 
-    /// Sets time 0 to micro-step `n` of the scene. The offset is exact except for one rounding,
-    /// relative to the box length, however far the row has moved.
+    /// Sets time 0 to micro-step `n` of the scene. However far the row has moved, the error of the
+    /// offset is about one rounding of the box length.
     void begin_interval(std::int64_t n) {
         if (!are_moving()) return;
         const double steps = static_cast<double>(n), gone = speed * steps,
@@ -121,8 +121,8 @@ struct Periods {
     CARROM_DEVICE Shift shift_of(Image image, double time) const {
         return {image.x * x + image.y * offset_at(time), image.y * y, image.y * speed};
     }
-    /// The shift from the image of `p` to the image of `q`, which is added to the difference of the
-    /// stored states. It changes sign if p and q are exchanged.
+    /// The shift from the image of `p` to the image of `q`. Callers add it to the stored state of q
+    /// minus the stored state of p. It changes sign if p and q are exchanged.
     CARROM_DEVICE Shift between(const DiscState& p, const DiscState& q, double time) const {
         return are_shifted_alike(p, q) ? Shift{} : shifted_between(p, q, time);
     }
@@ -170,7 +170,7 @@ struct Periods {
         }
         disc.x = wrapped(disc.x, x);
     }
-    /// The shortest displacement between images of two discs whose difference is (dx, dy).
+    /// Reduces a displacement (dx, dy) to the nearest row of images, then to the nearest one in x.
     Shift nearest(double dx, double dy, double time) const {
         if (y != 0) {
             const double down = std::round(dy / y);

@@ -19,7 +19,7 @@ std::ifstream failed_stream() {
     return stream;
 }
 
-/// The reason why an open file is not a readable plain file; empty if it is.
+/// The reason why this file descriptor is not an open plain file; empty if it is.
 OpenProblem problem_of(int number) {
     struct stat status{};
     if (number < 0 || ::fstat(number, &status) != 0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens files for reading whose names come from a user or a folder. Only plain files are accepted,
-// because opening a pipe without a writer would wait for ever.
+// Opens files for reading. Their names come from a user or a folder's list, and only plain files
+// are accepted, because opening a pipe without a writer would wait for ever.
 #pragma once
 
 #include <fstream>

@@ -42,9 +42,9 @@ NormalPair random_normals(DiscRandom& random) {
 }
 
 double random_exponential(DiscRandom& random) {
-    // A first number x is followed by numbers as long as these descend, x >= u2 >= u3 >= ... The
-    // index of the first larger number is even with probability 1 - x + x^2/2! - ... = exp(-x).
-    // Each failure adds 1 to the whole part, so the density becomes exp(-(1 + x)), and so on.
+    // After a first number x, numbers are drawn while they descend, x >= u2 >= u3 >= ... The index
+    // of the first number above its predecessor is even with probability 1 - x + x^2/2! - ... =
+    // exp(-x). Each failure adds 1 to `whole`, so the density of x + whole is exp(-(x + whole)).
     for (double whole = 0;; whole += 1) {
         const double first = random.uniform();
         double last = first;

@@ -15,7 +15,7 @@
 namespace carrom {
 
 /// The uses of random numbers. Never change a value, because a seed must always give the same
-/// discs.
+/// numbers.
 enum class Purpose : std::uint64_t {
     position = 1,
     shake = 2,
@@ -27,7 +27,7 @@ enum class Purpose : std::uint64_t {
     inlet = 8
 };
 
-/// Four random words for this counter.
+/// Four random 64-bit words. Equal arguments always give equal words.
 std::array<std::uint64_t, 4> random_words(std::uint64_t seed, Purpose purpose, DiscId id,
                                           std::uint64_t attempt, std::uint64_t block = 0);
 
@@ -53,8 +53,8 @@ private:
     std::array<std::uint64_t, 4> words_{};
 };
 
-/// A unit vector of random direction: a point drawn uniformly in the unit disc by rejection, then
-/// scaled to length 1, which needs no sine or cosine (Marsaglia 1972).
+/// A unit vector. `random_direction` draws a point uniformly in the unit disc by rejection and
+/// scales it to length 1, which needs no sine or cosine (Marsaglia 1972).
 struct Direction {
     double x = 0, y = 0;
 };

@@ -44,7 +44,7 @@ Pair divide(Pair a, double b) {
 constexpr double half_pi[] = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54, -0x1.f1976b7ed8fbcp-110};
 
 /// The Taylor series of sin(x) if `first` is 1, of cos(x) if it is 0. Neglected terms are below
-/// 2^-110 for |x| <= pi/4.
+/// 2^-107 for |x| <= pi/4.
 Pair series(Pair x, int first) {
     const Pair square = multiply(x, x);
     Pair sum{1, 0};

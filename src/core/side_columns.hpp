@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of discs that are stored outside of the 64-byte states, if a run's dynamics need them.
+// Side columns: numbers of each disc outside of its 64-byte state, if a run's dynamics need them.
 //
 // Engines send, sort and roll back all columns that a run has, whatever they mean. Scenes,
 // checkpoints, restarts and recordings use the table below. A new column needs a name and a line in
@@ -26,7 +26,7 @@ struct SideColumnInfo {
     const char* name;  ///< name in checkpoints, and in scenes that give initial values
     const char* shown; ///< the column's name in recordings, tables and the fields of a trajectory
     bool is_rate;      ///< whether it is a rate, stored per micro-step
-    /// Whether effects determine which runs have the column; if not, runs with initial values do
+    /// Whether effects determine which runs have the column; else runs with initial values have it
     bool is_of_dynamics;
     bool is_given;     ///< whether scenes may give initial values; such columns come first
     const char* needs; ///< error message if initial values are given in a run without this column
@@ -84,7 +84,7 @@ struct SideColumnSet {
     friend bool operator==(const SideColumnSet&, const SideColumnSet&) = default;
 };
 
-/// For each column the values of a list of discs, not owned; empty if the column is absent.
+/// For each column a view of its values for a list of discs; empty if the column is absent.
 using SideSpans = BySideColumn<std::span<const double>>;
 
 /// The columns that a run has; each holds one number for each disc of the same list.

@@ -34,7 +34,7 @@ StateHash hash_of(std::span<const DiscState> discs) {
     return sum;
 }
 
-/// The column's number is the seed of the hash; spins have seed 0, which means no seed.
+/// The seed of the hash is the index of the column. Spin has index 0, which means no seed.
 StateHash hash_of(SideColumn column, DiscId id, double number) {
     const std::array<std::uint64_t, 2> record = {id, std::bit_cast<std::uint64_t>(number + 0.0)};
     const XXH128_hash_t hash = XXH3_128bits_withSeed(record.data(), sizeof record,

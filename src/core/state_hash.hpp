@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A fingerprint of a whole state. The owners and the order of discs do not affect
-// it.
+// A fingerprint of a whole state. It does not depend on the order of the discs, nor on the ranks
+// that own them.
 //
 // The record of each disc (id, position, velocity, local time, counters; -0 counts as +0) is hashed
 // with XXH3-128. The hashes are added, so ranks and threads may add their shares in any order.
@@ -19,7 +19,7 @@ namespace carrom {
 StateHash hash_of(const DiscState& disc);
 StateHash hash_of(std::span<const DiscState> discs);
 
-/// The part of the hash from a disc's number in a side column, if the run has that column.
+/// The term that a disc's number in a side column adds to the hash of the state.
 StateHash hash_of(SideColumn column, DiscId id, double number);
 
 #ifdef _OPENMP

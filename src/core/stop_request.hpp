@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records requests to stop, from signal handlers, and defines the exception that stops all ranks.
 //
-// A run normally stops between two steps. Work that takes too long after the request is abandoned:
-// a start, or a step that does not end within the patience. Ranks get signals at different times,
-// so they must agree before they throw.
+// A run normally stops between two steps. If a start or a step lasts longer than the patience after
+// the request, it is abandoned. Ranks get signals at different times, so they must agree before
+// they throw.
 #pragma once
 
 #include <atomic>

@@ -7,8 +7,8 @@
 
 namespace carrom {
 
-/// With fewer discs a thread spends most of its time on copying discs of other threads, or on
-/// waking and sleeping.
+/// With fewer discs for each thread, threads spend most of their time on copying discs of other
+/// threads, or on waking and sleeping.
 inline constexpr std::uint64_t least_discs_per_thread = 16;
 
 /// The number of threads to use: at most `n_threads`, at least one.

@@ -9,7 +9,7 @@ namespace carrom {
 /// The reason why a file cannot be written; `text` is empty if it can.
 struct WriteProblem {
     std::string text;
-    bool is_failure = false; ///< the cause is the disk or a missing right, not the path
+    bool is_failure = false; ///< the cause is the disk or a missing permission, not the path
 };
 
 /// A problem with the text `what`, followed by the system's message for `error` (errno).

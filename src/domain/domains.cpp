@@ -10,9 +10,9 @@ namespace carrom {
 
 namespace {
 
-/// Limits for groups of ranks. With groups, a rank must have less than this share of the own and
-/// halo discs that it would have with whole strips. Its halo must also be smaller by this many
-/// discs, because copying so many takes as long as messages to six more neighbours.
+/// Limits for groups of ranks: with them a rank must have fewer own and halo discs than this share
+/// of its number with whole strips, and at least `least_saved` fewer, because copying so many discs
+/// takes as long as messages to six more neighbours.
 constexpr double worth_a_group = 0.95, least_saved = 600;
 
 /// The mean over ranks of the area of domain and halo, divided by the area of the domain. Halos end

@@ -4,12 +4,12 @@
 // of one rank owns a whole strip. Only arithmetic, without MPI.
 //
 // With few ranks each group has one rank, because whole strips have the fewest neighbours. With
-// many ranks whole strips would be so narrow that most discs of a rank would be in its halo. The
-// smallest halo belongs to a rectangle about as wide as high. Each strip has its own cuts, so that
-// all domains can have equal work in any distribution of discs.
+// many ranks whole strips would be so narrow that most discs of a rank would be in its halo. A
+// rectangle about as wide as high has the smallest halo. Each strip has its own cuts, so that all
+// domains can have equal work in any distribution of discs.
 //
-// All lists follow from numbers that every rank knows (see strips.hpp). So they are symmetric, and
-// no disc is missed because of rounding.
+// All lists of ranks follow from numbers that every rank has (see strips.hpp). So the lists are
+// symmetric, and no disc is missed because of rounding.
 #pragma once
 
 #include <utility>
@@ -70,9 +70,9 @@ public:
         return first_rank(strip) + (are_cut_across() ? group(strip).owner(across) : 0);
     }
 
-    /// The other ranks, ascending, whose domain has points within `reach` >= 0 of this rank's
-    /// domain, along each axis. Their discs may meet. Cost: the number of ranks in the strips
-    /// within reach.
+    /// The other ranks, ascending, whose domain has points within `reach` >= 0 of the domain of
+    /// `rank`, along each axis. Discs of two such ranks may meet. The cost is proportional to the
+    /// number of ranks in the strips within reach.
     std::vector<int> neighbours_within(int rank, double reach) const;
 
     /// The domains of a box that has become longer by these factors above 0.
@@ -89,7 +89,7 @@ private:
 
 /// The other ranks, ascending, with which `rank` may exchange discs if the domains change. Discs
 /// were in the domains `before`, have moved by at most `distance` along each axis, and go to the
-/// owners in `after`. Cost: the number of ranks.
+/// owners in `after`. The cost is proportional to the number of ranks.
 std::vector<int> movers_between(const Domains& before, const Domains& after, int rank,
                                 double distance);
 

@@ -10,10 +10,10 @@
 
 namespace carrom {
 
-/// Moves each value to the rank `owner_of(place)`, where `place` is the index of a value that has
-/// not been moved yet. Values are sent in rounds, and arriving values take the places of those that
-/// were sent. Sending all values together would take two or three times the memory of the discs.
-/// **Collective.**
+/// Moves each value to the rank `owner_of(i)`, where i is the value's index before the call.
+/// `owner_of(i)` may read `values[i]`, which still holds that value. Values are sent in rounds, and
+/// arriving values take the places of values that were sent. Sending all values together would take
+/// two or three times their memory. **Collective.**
 template <class Values, class Owner>
 void hand_to_owners(const Communicator& communicator, Values& values, const Owner& owner_of) {
     using T = typename Values::value_type;

@@ -6,8 +6,8 @@
 namespace carrom {
 
 /// Gives each own disc the image that is in the box. The disc's state in `companion` gets the same
-/// image, although its position may differ. Discs that were far from all sides when they were
-/// sorted keep their image: no frame may jump along a periodic axis (scene/rules.cpp).
+/// image, although its position may differ. Without a companion, discs that were sorted far from
+/// all sides can be skipped: they are still in the box, or a sync has moved them into it.
 void StripDiscs::set_home_images(double time, double farthest, DiscStates* companion) {
     const Inside inside = periods_.inside();
     const Inside inner{inside.x_low + farthest, inside.x_high - farthest, inside.y_low + farthest,

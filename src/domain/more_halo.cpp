@@ -56,7 +56,7 @@ void StripDiscs::report_to_owners(std::span<const LocalIndex> of_halo,
     for (const HaloPart& part : more_halo_) report_part(part.plan, part.offsets, of_halo, reported);
 }
 
-/// Reports halo discs that belong to one part of the halo to their owners. **Collective.**
+/// Reports the discs of `of_halo` that lie in one part of the halo to their owners. **Collective.**
 void StripDiscs::report_part(const TransferPlan& plan, std::span<const std::size_t> offsets,
                              std::span<const LocalIndex> of_halo,
                              std::vector<LocalIndex>& reported) {

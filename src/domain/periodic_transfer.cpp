@@ -11,11 +11,11 @@ namespace carrom {
 
 namespace {
 
-/// Partners are listed for slightly larger distances, by this fraction of a period, because
-/// positions of images are rounded.
+/// When partners are listed, distances are enlarged by this fraction of a period, because positions
+/// of images are rounded.
 constexpr double margin = 1e-9;
 
-/// The part of the domain that lies in the box, along periodic axes.
+/// The rank's domain, cut off at the sides of the box along periodic axes.
 Domain domain_in_box(const Domains& domains, int rank, const Periods& periods) {
     const auto cut = [](Strip& strip, double period) {
         if (period == 0) return;
@@ -60,8 +60,8 @@ bool are_near(const Domains& a, int rank_a, const Domains& b, int rank_b, double
            are_near_images(from.across, to.across, distance_across, period_across, false);
 }
 
-/// The range of n for which a displacement by n periods may bring `place` to within `reach` of low
-/// .. high. The range may be slightly too large.
+/// The range of n for which a displacement by n periods may bring `place` to within `reach` of the
+/// interval [low, high]. The range may be slightly too large.
 struct Shifts {
     int first = 0, last = 0;
 
@@ -98,7 +98,7 @@ TransferPlan plan_periodic_migration(const Domains& before, const Domains& domai
                                      const Periods& periods, int n_threads) {
     TransferPlan plan;
     const Axis axis = domains.axis();
-    const auto distance_along = [&](Axis of) { // at most a period plus rounding
+    const auto distance_along = [&](Axis of) { // at most a period, plus `margin`
         const double period = periods.along(of);
         return period == 0 ? farthest : std::min(farthest, period) + margin * period;
     };
@@ -161,7 +161,7 @@ TransferPlan plan_periodic_halo(const Domains& domains, int rank, std::span<cons
     plan.images.resize(plan.partners.size());
     std::vector<Domain> theirs;
     for (const int other : plan.partners) theirs.push_back(domain_in_box(domains, other, periods));
-    // Moving rows of boxes slide along x, so strips must be cut along y.
+    // Moving rows of boxes slide along x, so strips must follow each other along y.
     ensure(axis == Axis::y || !periods.are_moving(), "strips are cut along the rows of boxes");
     const double slide = axis == Axis::y ? periods.offset_at(time) : 0;
     const auto is_far = [](const Strip& strip, double place, double distance) {

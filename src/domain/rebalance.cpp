@@ -2,11 +2,11 @@
 // Moves the cuts between domains, so that all ranks get equal work. First the box is cut into
 // strips, by the work along the axis. Then each strip is cut across, by the work in the strip.
 //
-// The work of a rank and its halo has been counted. It is divided among the rank's discs: each gets
-// the same part of the work for single discs, and a part of the work for pairs in proportion to the
-// number of other discs in its cell. So a cut can pass through a cluster. Errors of this estimate
-// appear in the next count and are then corrected. Cost: one or two passes over the own discs, and
-// sums of some thousand numbers for each direction and strip.
+// The engine counts the work of a rank and its halo. This work is divided among the rank's discs:
+// each gets the same part of the work for single discs, and a part of the work for pairs in
+// proportion to the number of other discs in its cell. So a cut can pass through a cluster. Errors
+// of this estimate appear in the next count and are then corrected. Cost: one or two passes over
+// the own discs, and sums of some thousand numbers for each direction and strip.
 #include <algorithm>
 
 #include "domain/domain_cuts.hpp"
@@ -15,7 +15,7 @@
 
 namespace carrom {
 
-/// Calls visit(disc, weight) for each own disc. A weight is a positive integer, in `unit`.
+/// Calls visit(disc, weight) for each own disc. The weight is its work in `unit`s, at least 1.
 template <class Visit>
 void StripDiscs::weigh(const RankWork& work, double unit, const Visit& visit) const {
     const auto of_disc = [&](double of_discs, double of_pairs) {
@@ -49,7 +49,7 @@ void StripDiscs::weigh(const RankWork& work, double unit, const Visit& visit) co
 }
 
 void StripDiscs::rebalance(double time, double above, const RankWork& work) {
-    constexpr double units_of_disc = 0x1p20; // weight of a mean disc
+    constexpr double units_of_disc = 0x1p20; // weight of a disc with the mean work
     if (communicator_.size() == 1) return;
     struct Work {
         std::uint64_t of_all = 0;

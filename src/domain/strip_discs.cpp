@@ -14,13 +14,13 @@ namespace carrom {
 
 namespace {
 
-/// The axis along which strips follow each other. Moving rows of boxes slide along x. Strips are
-/// then cut along y, so that only the first and the last strip have moving images.
+/// The axis along which strips follow each other. Moving rows of boxes slide along x. Strips then
+/// follow each other along y, so that only the first and the last strip have moving images.
 Axis cut_axis(const Box& box, const Periods& periods) {
     return periods.are_moving() ? Axis::y : longer_axis(box);
 }
 
-/// The sizes of the groups of ranks. Halos' depths are converted from disc spacings to lengths.
+/// The sizes of the groups of ranks. The halo's depth is converted from disc spacings to a length.
 std::vector<int> group_sizes(const Box& box, const Periods& periods, int n_ranks,
                              std::uint64_t n_discs, const GroupChoice& choice) {
     if (choice.ranks_across) return groups_of(n_ranks, std::min(*choice.ranks_across, n_ranks));
@@ -39,7 +39,7 @@ std::vector<int> group_sizes(const Box& box, const Periods& periods, int n_ranks
 
 /// The first domains. They have equal areas, unless discs are so clustered that one rank would have
 /// to store far more discs than the mean before the first cuts by work. `owner_in(domains, disc)`
-/// and `place_of(disc)` use the disc's own time. **Collective.**
+/// and `place_of(disc)` use the position at the disc's own time. **Collective.**
 template <class OwnerIn, class PlaceOf>
 Domains first_domains(const Communicator& communicator, const Box& box, const Domains& equal,
                       const std::vector<int>& group_sizes, std::span<const DiscState> discs,
@@ -142,7 +142,7 @@ void StripDiscs::set_departed_aside() {
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
 
-/// Each disc goes to its owner in the last migration's domains, from which the next one starts.
+/// The owner follows from the domains of the last migration, because the next one starts from them.
 void StripDiscs::take_back(std::span<const ReturningDisc> discs) {
     if (discs.empty()) return;
     forget_halo();
@@ -183,7 +183,7 @@ void StripDiscs::migrate(double time, double farthest, DiscStates* companion) {
     redistributed_domains_ = domains_;
 }
 
-/// Moves the values of discs that leave to other ranks, and appends those of arriving discs.
+/// Moves the values of discs that leave to other ranks, and appends the values of arriving discs.
 template <class Values> void StripDiscs::move_along(const TransferPlan& plan, Values& values) {
     Values arrived;
     transfer(exchange_, plan, values, arrived, n_threads_);
@@ -191,7 +191,7 @@ template <class Values> void StripDiscs::move_along(const TransferPlan& plan, Va
     values.insert(values.end(), arrived.begin(), arrived.end());
 }
 
-/// Plans the migration. Discs far inside the domain when they were sorted are not searched.
+/// Plans the migration. Without periodic sides it skips discs that were sorted deep in the domain.
 TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     const int rank = communicator_.rank();
     if (periods_.are_any())
@@ -317,7 +317,7 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed,
     });
 }
 
-/// For each partner, lists the own discs among `changed` that are in the partner's halo.
+/// For each partner, lists the own discs in `changed` by their places in the halo plan's list.
 TransferPlan StripDiscs::plan_updates(std::span<const LocalIndex> changed) const {
     TransferPlan plan;
     plan.partners = halo_plan_.partners;
@@ -336,8 +336,8 @@ TransferPlan StripDiscs::plan_updates(std::span<const LocalIndex> changed) const
     return plan;
 }
 
-/// Copies states that a partner has sent; the partner's discs begin at `offset` in the halo. Writes
-/// the indices of these discs to `updated`.
+/// Copies states that a partner has sent; the partner's discs begin at the index `offset` in
+/// `discs_`. Writes the indices of these discs to `updated`.
 void StripDiscs::take_updates(std::span<const Update> items, std::size_t offset,
                               std::span<LocalIndex> updated) {
 #pragma omp parallel for num_threads(n_threads_)                                                   \
@@ -368,7 +368,7 @@ bool StripDiscs::is_valid(double time) const {
                     redistributed_domains_.owner(along, across) == communicator_.rank();
     }
     communicator_.sum(sums);
-    std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, as are the expected sums
+    std::uint64_t id_sum = 0, square_sum = 0; // modulo 2^64, like `sums`
     for (std::uint64_t id = 0; id < n_with_departed_; ++id) {
         id_sum += id;
         square_sum += id * id;

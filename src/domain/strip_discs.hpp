@@ -3,9 +3,9 @@
 // neighbours have sent. The rank owns a strip or a part of a strip (domains.hpp). This class
 // migrates discs between ranks, sorts them, and fetches the halo.
 //
-// Cuts and bounds that all ranks know determine which ranks exchange discs, so `farthest` and
-// `reach` must be equal on all ranks. Cost: two passes over the own discs, and two messages to each
-// neighbour.
+// Cuts and bounds that are equal on all ranks determine which ranks exchange discs, so `farthest`
+// and `reach` must be equal on all ranks. Cost of a migration with a new halo: two passes over the
+// own discs, and two messages to each neighbour.
 #pragma once
 
 #include <cstdint>
@@ -66,12 +66,12 @@ public:
     /// `anchor` (CellGrid::sort); the grid then has no halo. `companion`: see migrate.
     void sort(const GridGeometry& geometry, double anchor, double time, double duration,
               DiscStates* companion);
-    /// Sorts the own discs into cells without storing flights.
+    /// Sorts the own discs into cells by their positions at `time`, for searches at that time only.
     void sort_cells(const GridGeometry& geometry, double time);
 
-    /// Appends the discs of other ranks within `reach` of the own domain at `time` to the own
-    /// discs, and sorts them into cells. The own discs must have been migrated and sorted for the
-    /// same time. **Collective.**
+    /// Appends the discs within `reach` of the own domain at `time` to the own discs: discs of
+    /// other ranks and, in periodic boxes, images of own discs. Sorts them into cells. The own
+    /// discs must have been migrated and sorted for the same time. **Collective.**
     void fetch_halo(double time, double reach, DiscStates* companion);
 
     /// Adds discs up to the distance `reach` to the halos of ranks with `wants` true. These halos
@@ -85,7 +85,7 @@ public:
     void send_updates(std::span<const LocalIndex> changed, std::vector<LocalIndex>& updates);
 
     /// Sends the elements of `values`, one for each own disc, that other ranks need for their
-    /// halos, and appends those of this rank's halo. **Collective.**
+    /// halos, and appends the elements for this rank's halo. **Collective.**
     template <class Values> void show(Values& values) {
         values.resize(n_own_);
         if (has_no_halo()) return;
@@ -99,8 +99,8 @@ public:
     void report_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
 
     /// Moves the cuts so that all domains have equal work, if the largest `work` of a rank exceeds
-    /// the mean by more than the factor `above`. Discs count at their positions at `time`; the next
-    /// migration sends them to their new owners. **Collective.**
+    /// `above` times the mean. Discs count at their positions at `time`; the next migration sends
+    /// them to their new owners. **Collective.**
     void rebalance(double time, double above, const RankWork& work);
 
     Population population() const { return {discs_, n_own_}; }
@@ -176,7 +176,7 @@ private:
     /// Halo discs that fetch_more_halo has added.
     struct HaloPart {
         TransferPlan plan;
-        std::vector<std::size_t> offsets; ///< where each partner's discs begin, and the end
+        std::vector<std::size_t> offsets; ///< where each partner's discs begin in `discs_`; the end
     };
 
     template <class Values> void move_along(const TransferPlan& plan, Values& values);
@@ -190,7 +190,7 @@ private:
                      std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
     Companions companions(DiscStates* states);
 
-    /// The new state of a disc, and the index of the disc in the partner's halo.
+    /// The new state of a disc, and its index among the discs that the partner has from this rank.
     struct Update {
         DiscState disc;
         std::uint64_t place;
@@ -214,15 +214,15 @@ private:
         redistributed_domains_; ///< the present cuts, and the cuts at the last migration
     NeighbourExchange exchange_;
     CellGrid grid_;
-    bool is_sorted_ = false; ///< whether the grid holds the present order of own discs
+    bool is_sorted_ = false; ///< whether own discs are still in the order of the grid
     /// Own discs whose image is displaced, and this image
     std::vector<std::pair<LocalIndex, Image>> displaced_;
     bool are_displaced_listed_ = false; ///< whether `displaced_` was filled since the migration
-    bool has_images_ = false; ///< own discs had their images in the box when they were sorted
+    bool has_images_ = false; ///< if false, the next migration searches all own discs for images
     TransferPlan halo_plan_;
     /// Neighbours except this rank itself, which is its own neighbour in a periodic box
     std::vector<int> other_partners_;
-    std::vector<std::size_t> halo_offsets_; ///< where each partner's discs begin
+    std::vector<std::size_t> halo_offsets_; ///< where each partner's discs begin in `discs_`
     std::vector<HaloPart> more_halo_;
     std::vector<std::uint8_t> is_shown_; ///< whether a neighbour has the own disc in its halo
 };

@@ -58,10 +58,10 @@ bool can_move(const Strip& before, const Strip& after, double distance) {
 }
 
 bool are_within(const Strip& a, const Strip& b, double reach) {
-    // These are the comparisons that senders make. A sender below b compares the rounded x + reach,
-    // which is at most this sum, because rounding is monotone. A sender above b compares the
-    // rounded x - reach; if that is less than b.high, the other sum here is at least x. The
-    // difference of two edges could be rounded in the wrong direction.
+    // Senders make these comparisons with rounded numbers. A sender below b compares the rounded x
+    // + reach, which is at most a.high + reach, because rounding is monotone. A sender above b
+    // compares the rounded x - reach; if that is less than b.high, the rounded b.high + reach is at
+    // least x. The difference of two edges could be rounded in the wrong direction.
     return a.high + reach >= b.low && b.high + reach >= a.low;
 }
 

@@ -2,7 +2,7 @@
 // Cuts an axis, by default x, into half-open strips, and lists owners that may exchange discs.
 // Domains (domains.hpp) use strips in both directions. Only arithmetic, without MPI.
 //
-// All lists follow from numbers that every rank knows, so both partners of an exchange compute the
+// All lists follow from numbers that every rank has, so both partners of an exchange compute the
 // same lists without messages. Lists are symmetric: a lists b if and only if b lists a. No disc is
 // missed if senders choose receivers with `meets(x - reach, x + reach)` or `owner(x)`, because all
 // these comparisons round in the same way.
@@ -53,8 +53,8 @@ public:
     /// The rank whose strip holds `x`.
     int owner(double x) const;
 
-    /// The other ranks, ascending, whose strips have points within `reach` >= 0 of this rank's
-    /// strip. Cost: the number of strips within reach.
+    /// The other ranks, ascending, whose strips have points within `reach` >= 0 of the strip of
+    /// `rank`. The cost is proportional to the number of strips within reach.
     std::vector<int> neighbours_within(int rank, double reach) const;
 
     /// The strips of an axis that has become longer by this factor above 0.
@@ -71,12 +71,12 @@ private:
 /// `distance`. Neither strip may be empty.
 bool can_move(const Strip& before, const Strip& after, double distance);
 
-/// Whether two points, one in each strip, can be within `reach` >= 0. Neither strip may be empty.
+/// Whether points of two strips can be within `reach` >= 0 of each other. No strip may be empty.
 bool are_within(const Strip& a, const Strip& b, double reach);
 
 /// Returns cuts such that the fraction `below[k]` of the weight lies below cut k; `below` ascends
-/// from 0 to 1. `weights` are those of equal bins of [0, length]; inside a bin the weight is
-/// assumed to be uniform. The cuts ascend, lie in the box, and depend on the arguments only.
+/// from 0 to 1. `weights[i]` is the weight in bin i of equal bins of [0, length]; inside a bin it
+/// is assumed to be uniform. The cuts ascend, lie in the box, and depend on the arguments only.
 std::vector<double> balanced_cuts(std::span<const std::uint64_t> weights, double length,
                                   std::span<const double> below);
 

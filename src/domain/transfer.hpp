@@ -2,7 +2,7 @@
 // Plans which discs go to which rank, and sends them. A plan can send any array that has one
 // element for each disc.
 //
-// Migration and the halo are two kinds of plan for the same transfer. Both sides know their
+// Migration and the halo are two kinds of plan for the same transfer. Each rank computes its
 // partners from the cuts and a bound on distances. So the only messages carry discs, one message to
 // each partner.
 #pragma once
@@ -48,8 +48,8 @@ TransferPlan plan_migration(const Domains& before, const Domains& domains, int r
                             std::span<const DiscState> own, std::span<const PlaceRange> searched,
                             double time, double farthest, int n_threads);
 
-/// A halo contains the discs within `reach` of a domain along each axis, without those within
-/// `beyond`. If `beyond` is negative, none is left out.
+/// A halo contains the discs within `reach` of a domain along each axis, except discs within
+/// `beyond`. If `beyond` is negative, no disc is left out.
 struct HaloDepth {
     double reach = 0, beyond = -1;
 };
@@ -78,9 +78,9 @@ std::vector<int> halo_partners(const Domains& domains, int rank, double reach,
 /// count only if they are periodic.
 Inside interior(const Domains& domains, int rank, double reach, const Periods& periods);
 
-/// Sends elements of `values`, one for each own disc, as `plan` says, and appends the elements that
-/// arrive to `arrived`, which may be the same array. Returns where each partner's elements begin
-/// among the arrived ones, and their total number. Elements may be discs, numbers or hashes.
+/// Sends elements of `values`, one for each own disc, according to `plan`, and appends the elements
+/// that arrive to `arrived`, which may be the same array. Returns where each partner's elements
+/// begin among the arrived ones, and their total number. Elements may be discs, numbers or hashes.
 /// **Collective.**
 template <class Values>
 std::vector<std::size_t> transfer(NeighbourExchange& exchange, const TransferPlan& plan,
@@ -94,7 +94,7 @@ std::vector<std::size_t> transfer_images(NeighbourExchange& exchange, const Tran
 /// Appends the images of own discs that a single rank needs in its own halo.
 void append_images(const TransferPlan& plan, DiscStates& values, int n_threads);
 
-/// Removes the discs that have been sent, and fills the gaps with discs from the end.
+/// Removes the elements of `values` that have been sent, and fills the gaps with the last ones.
 template <class Values> void remove_leaving(const TransferPlan& plan, Values& values) {
     std::vector<LocalIndex> all;
     for (const std::vector<LocalIndex>& leaving : plan.leaving)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Planning and packing with all threads of a rank, for sources in this folder. With one planning
-// thread, all other threads would wait once or twice a window.
+// Plans and packs transfers with all threads of a rank. Only sources in this folder use it. With
+// one planning thread, all other threads would wait once or twice a window.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace carrom {
 /// planning a disc takes several times as long as packing it.
 inline constexpr std::size_t least_for_threads = 4096, least_planned_on_threads = 512;
 
-/// Calls visit(place) for the places first .. last - 1 of the sequence of all ranges.
+/// Calls visit(place) for the elements first .. last - 1 of the list of all places in `ranges`.
 template <class Visit>
 void visit_places(std::span<const PlaceRange> ranges, std::size_t first, std::size_t last,
                   const Visit& visit) {
@@ -47,7 +47,7 @@ void plan_in_parts(TransferPlan& plan, std::span<const PlaceRange> searched, int
     std::vector<LeavingDiscs> parts(n_parts);
 #pragma omp parallel for num_threads(n_threads) schedule(static, 1)
     for (std::size_t k = 0; k < n_parts; ++k) {
-        // A copy with empty lists, because writing to `parts[k]` itself would share cache lines
+        // A copy with empty lists: threads that write to `parts` directly would share cache lines
         LeavingDiscs part = plan;
         visit_places(searched, share(n_searched, k, n_parts), share(n_searched, k + 1, n_parts),
                      [&](LocalIndex place) { visit(place, part); });

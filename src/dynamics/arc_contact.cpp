@@ -19,8 +19,8 @@ namespace {
 /// tangent, which deviates from the circle by at most 5e-15 of the radius.
 constexpr double slip = 1e-7;
 
-/// The time at which a flight leaves the circle of radius `reach`; `never` if it does not enter it,
-/// or if the disc is beyond `wall` and moves away.
+/// The time at which a flight leaves the circle of radius `reach`; `never` if the flight misses
+/// this circle, or if the disc is beyond the radius `wall` and moves away.
 double way_out(const ArcFlight& f, double reach, double wall) {
     const double b = f.dx * f.wx + f.dy * f.wy, a = f.wx * f.wx + f.wy * f.wy;
     if (!(reach > 0) || !(a > 0)) return never;
@@ -35,9 +35,9 @@ double way_out(const ArcFlight& f, double reach, double wall) {
     return b < 0 ? (root - b) / a : (reach - distance) * (reach + distance) / (b + root);
 }
 
-/// The time at which a disc that grows inside the circle of radius `wall` touches it, or
-/// `never`. In lengths divided by 1 - g t, with g = rate / (wall - radius), and with the
-/// clock u = t / (1 - g t), the disc has a constant radius and flies straight
+/// The time at which a disc that grows inside the circle of radius `wall` touches it, or `never`.
+/// In lengths divided by 1 - g t, with g = rate / (wall - radius), and with the clock u = t / (1 -
+/// g t), the disc's centre flies straight inside a circle of constant radius
 /// (growing_contact.hpp).
 double growing_way_out(const ArcFlight& f, const DiscSize& size, double wall) {
     const double room = wall - size.radius;
@@ -48,7 +48,7 @@ double growing_way_out(const ArcFlight& f, const DiscSize& size, double wall) {
     return clock < never ? clock / std::fma(shrinks, clock, 1.0) : never;
 }
 
-/// The times at which the distance has a minimum or maximum, ascending.
+/// The times, ascending, at which the distance from the arc's centre has a minimum or maximum.
 struct Turns {
     std::array<double, 3> times{};
     std::size_t n = 0;
@@ -75,7 +75,7 @@ Turns turns_of(const Parabola& flight) {
     return turns;
 }
 
-/// Time of contact with the outer face while the distance falls from `begin` to `end`, or `never`.
+/// The time of contact with the outer face in [begin, end], where the distance falls; or `never`.
 double contact_while_falling(Parabola flight, double outer, double wall, double begin, double end) {
     flight.reach = outer;
     if (flight.gap(begin).value <= 0) return flight.gap(begin).value + outer < wall ? never : begin;
@@ -83,7 +83,7 @@ double contact_while_falling(Parabola flight, double outer, double wall, double 
     return root_between(begin, end, false, [&flight](double s) { return flight.gap(s); });
 }
 
-/// The time of contact with the inner face, while the distance grows; `end` may be `never`.
+/// Like contact_while_falling, for the inner face and a growing distance; `end` may be `never`.
 double contact_while_rising(Parabola flight, double inner, double wall, double begin, double end) {
     flight.reach = inner;
     if (!(inner > 0)) return never;
@@ -103,7 +103,7 @@ double arc_contact(const ArcFlight& flight, const DiscSize& size, double arc_rad
         return span.holds(x, y, std::sqrt(x * x + y * y));
     };
     const auto [dx, dy, wx, wy] = flight;
-    // A disc whose centre is inside the arc overlaps the outer face by more than a radius.
+    // A disc whose centre is inside the arc overlaps the outer face by over a radius: no contact.
     const double reach = arc_radius + size.radius;
     const double in = growing_contact_delay(-dx, -dy, -wx, -wy, reach, size.rate_of(reach),
                                             size.radius);

@@ -17,7 +17,7 @@ namespace carrom {
 
 /// The range of directions, from the arc's centre, that the arc covers.
 struct ArcSpan {
-    double ux = 1, uy = 0;    ///< direction of the arc's middle
+    double ux = 1, uy = 0;    ///< unit vector from the centre to the arc's middle
     double least_cosine = -2; ///< cosine of half the angle of the arc; below -1 for a whole circle
 
     bool holds(double x, double y, double distance) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bodies of discs: radius, mass, and how fast the surface moves out. They are one part of a
-// dynamics (dynamics.hpp), and are plain data.
+// The bodies of discs: radius, mass, and how fast the radius grows. They are one part of a dynamics
+// (dynamics.hpp), and are plain data.
 //
 //   EqualBodies     one radius, the mass 1
 //   SpeciesBodies   a radius and a mass for each species (species.hpp)
@@ -29,7 +29,7 @@ namespace carrom {
 /// The properties of a disc that a side of the box needs, at a given time.
 struct Body {
     double radius = 0, mass = 1;
-    double outwards = 0; ///< how fast the surface moves out
+    double outwards = 0; ///< speed at which the surface moves outwards
 };
 
 template <class B>
@@ -51,7 +51,7 @@ concept Bodies = std::is_trivially_copyable_v<B> &&
                      } -> std::same_as<double>; // the largest radius at the start
                      { bodies.of(p) } -> std::convertible_to<SizeAndMass>;
                      { bodies.at(p, time) } -> std::same_as<Body>;
-                     // the factor by which radii have grown
+                     // the factor by which radii have grown since the scene's start
                      { bodies.size_at(time) } -> std::convertible_to<double>;
                      // time from `time` until the discs touch (pair_contact.hpp)
                      { bodies.delay(by, p, p, met, time, time) } -> std::same_as<double>;
@@ -130,7 +130,7 @@ private:
 class GrowingBodies {
 public:
     static constexpr bool have_species = true, grow = true;
-    /// Growing discs that jam collide faster and faster, so the run is ended before it takes
+    /// Growing discs that jam collide more and more often, so the run is ended before it takes
     /// hours.
     static constexpr double cascade_interval = 0x1p-10;
 
@@ -141,8 +141,8 @@ public:
     CARROM_DEVICE void begin_interval(std::int64_t n) {
         at_sync_ = size_ * (1 + rate_ * static_cast<double>(n));
     }
-    /// From now on all radii are the scene's radii times `size`. Only for discs that do not grow at
-    /// a rate.
+    /// From now on all radii are the scene's radii times `size`. Only for a growth rate of 0, when
+    /// radii change at syncs only.
     void resize(double size) { at_sync_ = size_ = size; }
     void look_up_in(SpeciesView species) { species_ = species; }
     CARROM_DEVICE double largest() const { return radius_; }
@@ -172,7 +172,7 @@ private:
     double radius_, rate_;
     SpeciesView species_;
     double at_sync_ = 1; ///< the factor by which radii had grown at the last sync
-    double size_ = 1;    ///< the part of `at_sync_` that comes from an effect
+    double size_ = 1;    ///< the factor in `at_sync_` that an effect has set at a sync
 };
 
 } // namespace carrom

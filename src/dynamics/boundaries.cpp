@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// The value of `rest_times_`, at most an eighth of a period, in which acceleration changes little.
+/// The duration of a small bounce of a resting disc (`rest_times_`), at most an eighth of a period.
 double rest_time_at(const Boundary& side, const ContactGuard& guard, double acceleration,
                     double sway, double period, double radius) {
     if (sway != 0)
@@ -97,7 +97,7 @@ Extent Boundaries::walls_between(double begin, double end) const {
 }
 
 /// With drag a frame and a clock that start at `time` describe the same flight as the present ones,
-/// because F(s + d) - F(s) - F'(s) d = F(d / (1 - c s)).
+/// because F(s + d) - F(s) - F'(s) d = F(d / (1 - c s)). The contact is computed with these.
 double Boundaries::delay_of(const Approach& approach, double time) const {
     const auto& [distance, rate, pull] = approach;
     if (drag_ == 0 || pull == 0) return fall_delay(distance, rate, pull);
@@ -125,8 +125,8 @@ Boundaries::Meeting Boundaries::meeting(const DiscState& disc, Axis axis, const 
     return {disc.tau + to_high, low + 1};
 }
 
-/// Assumes a straight flight. An acceleration counts only if it is towards the wall; ignoring the
-/// others is safe.
+/// Accelerations away from the wall are ignored. This is safe, because without them a disc meets
+/// the wall earlier.
 bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
                           const Body& body) const {
     if (disc.has_departed()) return false;
@@ -135,7 +135,7 @@ bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
         auto [distance, rate, pull] = approach(disc, side, body);
         const double towards = sways_along(side) ? -largest_pull_at(side) : std::min(pull, 0.0);
         const bool oscillates = oscillations_[side].is_on();
-        // Distance to the highest position of the wall, which the wall may reach soon
+        // Distance to the wall's innermost position, which the wall may reach soon
         if (oscillates) [[unlikely]] {
             distance -= oscillations_[side].amplitude();
             rate = std::min(rate, 0.0);
@@ -177,7 +177,7 @@ void Boundaries::reverse(DiscState& disc, Axis axis, const Body& body, double* s
 }
 
 /// The acceleration that presses a disc at rest against the side. If it changes in time, this is
-/// the larger of its values now and at the end of a contact.
+/// the larger of its values at `time` and at the end of a small bounce (`rest_times_`).
 double Boundaries::pressure_at(std::size_t side, double time) const {
     const double sign = sign_of(side), steady = -sign * pull_at(side);
     if (!sways_along(side)) [[likely]]
@@ -197,14 +197,14 @@ Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double
                  wall = oscillates ? oscillating_velocity(side, time) : wall_velocity(side, time);
     const auto& [radius, mass, outwards] = body;
     const auto& [restitution, rubbing] = surfaces_[side].of(disc.id);
-    // A disc that grows bounces as from a wall that moves in at the speed of its surface.
+    // A disc that grows bounces as from a wall that moves in at the speed of the disc's surface.
     const double closing = std::fabs(sign * (wall - normal) + outwards);
     const bool is_guarded = guard_.holds_at_wall(since, closing, radius);
     double away = outwards + (is_guarded ? 1 : restitution) * closing;
     if (sides_[side].kind == BoundaryKind::thermal) {
-        // Discs leave a wall of temperature T with a normal velocity of the density v_n / T
-        // exp(-v_n^2 / 2 T); the other component has the normal distribution. All images of a disc
-        // draw the same numbers.
+        // The normal velocity v of discs that leave a wall of temperature T has the probability
+        // density v / T exp(-v^2 / 2 T) for a mass of 1; the other component has the normal
+        // distribution. All images of a disc draw the same numbers.
         const std::uint64_t n_before = disc.wall_collisions;
         DiscRandom random(thermal_seed_, Purpose::thermal_wall, disc.id,
                           4 * n_before + drawn_side(side));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The four sides of a box with effects: walls that lose energy, heat, move or oscillate, and open
+// The four sides of a box with effects: lossy, thermal, moving and oscillating walls, and open
 // sides. Periodic sides are treated as walls infinitely far away.
 //
-// Times and places are those of the falling frame (falling_frame.hpp). In it a wall at w0 that
-// moves with u is at w(t) = (w0 + u t) - (g/2 t) t, with the velocity u - g t. Its distance to a
-// disc is a quadratic, solved without subtracting nearly equal numbers. For g = 0 and u = 0 the
-// formulas are those of the plain dynamics, bit for bit. With drag of rate c and its clock s,
-// where t = s + c F(s), it is at (w0 + u s) - (g - c u) F(s). An oscillating wall moves about such
-// a line (oscillation.hpp).
+// Times and positions are in the falling frame (falling_frame.hpp). There, a wall at w0 that moves
+// with the velocity u is at w(t) = (w0 + u t) - (g/2 t) t and has the velocity u - g t, with the
+// acceleration g. Its distance to a disc is a quadratic, solved without subtracting nearly equal
+// numbers. For g = 0 and u = 0 the formulas equal the formulas of plain dynamics, bit for bit. With
+// drag of rate c and its clock s, where t = s + c F(s), the wall is at (w0 + u s) - (g - c u) F(s).
+// An oscillating wall moves about such a line (oscillation.hpp).
 #pragma once
 
 #include <array>
@@ -45,15 +45,15 @@ public:
         return meeting(disc, axis, body).time;
     }
     /// Carries out the collision at `time` = wall_time(disc, axis, body) in the event-driven
-    /// method. `then` is the body at that time. Here and below, `spin` is null if discs do not
-    /// turn.
+    /// method. `body` is for the time of the state, `then` for `time`. Here and below, `spin` is
+    /// null if discs do not turn.
     Loss bounce(DiscState& disc, Axis axis, double time, const Body& body, const Body& then,
                 double* spin) const;
     /// Returns false only if the disc meets no wall before `time`, with an allowance of `margin`
     /// for rounding.
     bool may_meet(const DiscState& disc, double time, double margin, const Body& body) const;
 
-    /// The side that the disc flies to along `axis`; its velocity there must not be 0.
+    /// The side that the disc flies to along `axis`; its velocity along this axis must not be 0.
     static std::size_t side_ahead(const DiscState& disc, Axis axis) {
         return 2 * static_cast<std::size_t>(axis) +
                (velocity_of(disc, static_cast<std::size_t>(axis)) < 0 ? 0 : 1);
@@ -63,7 +63,7 @@ public:
         return is_open(side_ahead(disc, axis));
     }
     bool are_any_open() const { return is_open(0) || is_open(1) || is_open(2) || is_open(3); }
-    /// The coordinate, in the box, at which the centre of a disc is just outside an open side.
+    /// The coordinate, in the box, of a disc's centre when the disc has just left at this side.
     double departure(std::size_t side, const Body& body) const {
         return departure_or_touch(side, body.radius);
     }
@@ -72,8 +72,8 @@ public:
     void depart(DiscState& disc, std::size_t side, double time, const Body& body,
                 double* spin) const;
 
-    /// Reverses the velocity along `axis` of a disc that touches a wall at rest. For the
-    /// time-stepped method.
+    /// Reflects a disc from the wall at rest that it touches along `axis`. For the time-stepped
+    /// method.
     void reverse(DiscState& disc, Axis axis, const Body& body, double* spin) const;
 
 private:
@@ -81,8 +81,8 @@ private:
         double time = never;
         std::size_t side = 0;
     };
-    /// Distance to the wall, its rate of change in the clock, and its acceleration, at the disc's
-    /// time. A surface that grows reduces the distance.
+    /// A disc's distance to the wall, its rate of change on the frame's clock and its acceleration,
+    /// at the disc's time. If the disc grows, the rate includes the growth.
     struct Approach {
         double distance, rate, pull;
     };
@@ -95,7 +95,7 @@ private:
     }
     static double sign_of(std::size_t side) { return side % 2 == 0 ? 1 : -1; }
 
-    /// The length of the box across the side, from one side to the opposite one.
+    /// The length of the box from this side to the opposite one.
     double length_of(std::size_t side) const { return side / 2 == 0 ? box_.x : box_.y; }
     /// The number of the side for random numbers of thermal walls. It is the same for a tall box
     /// and for the same box turned on its side.
@@ -147,7 +147,7 @@ private:
     Meeting meeting(const DiscState& disc, Axis axis, const Body& body) const;
     Loss rebound(DiscState& disc, std::size_t side, double since, double time, const Body& body,
                  double* spin) const;
-    /// The velocity of the wall's surface along itself, in the frame.
+    /// The velocity of the wall's surface in the direction of the wall, in the frame.
     double surface_velocity(std::size_t side, double time) const {
         const double velocity = sides_[side].surface.velocity / fall_.slowing_at(time) -
                                 pull_[1 - side / 2] * fall_.falling_time(time);
@@ -156,7 +156,7 @@ private:
         return velocity - fall_.sway().at(1 - side / 2, time).speed;
     }
     double pressure_at(std::size_t side, double time) const;
-    /// The sign, 1 or -1, of the tangent t of rubbing.hpp along +x or +y.
+    /// 1 if the tangent t (rubbing.hpp) at this side points along +x or +y, -1 if the other way.
     static double sign_along(std::size_t side) { return side == 0 || side == 3 ? 1 : -1; }
 
     std::array<Boundary, 4> sides_;
@@ -165,14 +165,14 @@ private:
     std::uint64_t thermal_seed_;
     Box box_;
     double radius_;
-    std::array<double, 4> away_{}; ///< distance from the box; infinite for periodic sides
+    std::array<double, 4> away_{}; ///< shift of a side; infinite for periodic sides, otherwise 0
     /// `moved_`: how far the walls have moved from the scene's start to the last sync
     std::array<double, 4> moved_{}, speeds_{};
     /// The steady part of the acceleration, and the amplitudes of the part that changes in time
     std::array<double, 2> pull_, sways_;
     FallingFrame fall_;
     std::array<Oscillation, 4> oscillations_{};
-    /// For each side, how long a small bounce of a resting disc takes; 0 if acceleration is steady
+    /// For each side, how long a small bounce of a resting disc takes; 0 if nothing oscillates
     std::array<double, 4> rest_times_{};
     std::array<SurfaceTable, 4> surfaces_{};
 };

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides which collisions lose no energy, because they belong to a contact that lasts.
+// Determines which collisions lose no energy, because they are part of a lasting contact.
 //
 // Discs that lose energy would undergo infinitely many collisions in a finite time (inelastic
 // collapse: McNamara and Young, Phys. Fluids A 4, 496 (1992)). The TC model of Luding and McNamara,
 // Granular Matter 1, 113 (1998), prevents this: a disc that has collided within the last contact
 // time collides elastically. By default the limit is a length instead: a collision is elastic if
 // the two discs have approached by less than a millionth of the sum of their radii since the last
-// collision of either. This limit depends neither on units nor on the speeds of discs. At walls
-// and fixed bodies the limit is a hundred times larger, because these do not give way, so a disc
-// that is pressed to one, or into a wedge between two, returns without end. A scene may set a time,
-// which saves collisions where discs lie at rest.
+// collision of either. This limit depends neither on units nor on the speeds of discs. At walls and
+// fixed bodies the limit is a hundred times larger, because a disc that is pressed to one, or into
+// a wedge between two, would collide with them again and again. A scene may set a contact time
+// instead, which saves collisions where discs lie at rest.
 //
 // If discs are pulled to a wall, a contact at rest is a series of small bounces without loss. The
 // energy that these bounces keep is not counted as spared by the guard. Slow lasting contacts lose
@@ -30,16 +30,16 @@
 
 namespace carrom {
 
-/// Time since the last collision of a disc within this sync interval.
+/// Time since the last collision of a disc in this sync interval; infinite if there was none.
 CARROM_DEVICE inline double since_collision(const DiscState& disc, double time) {
     return disc.has_collided ? time - disc.tau : never;
 }
 
 class ContactGuard {
 public:
-    /// The share of the distance between centres by which two discs approach during a contact.
+    /// A collision is guarded below this approach since the last one, relative to the sum of radii.
     static constexpr double pair_share = 1e-6;
-    /// This is the share for a disc and its mirror image behind a wall or a fixed body.
+    /// The same limit for a disc and its mirror image behind a wall or a fixed body.
     static constexpr double wall_share = 1e-4;
 
     /// No disc is larger than `radius`.
@@ -54,13 +54,13 @@ public:
     CARROM_DEVICE bool holds(double since, double closing) const {
         return holds(since, closing, pair_share);
     }
-    /// At a wall a disc approaches its own image, at twice its speed and twice its radius.
+    /// At a wall a disc approaches its mirror image, at twice its speed; their radii are equal.
     bool holds_at_wall(double since, double speed, double radius) const {
         return holds(since, speed / radius, wall_share);
     }
 
     /// The smallest speed at which a disc leaves a wall to which the acceleration `pull` presses
-    /// it. At this speed the disc is back after the duration of a contact.
+    /// it. At this speed the disc is away so long that its next collision is just not guarded.
     double least_departure(double pull, double radius) const {
         if (!(pull > 0)) return 0;
         return contact_time_ > 0 ? 0.5 * pull * contact_time_
@@ -72,8 +72,8 @@ public:
         return pull > 0 ? 2 * least_departure(pull, radius) / pull : 0;
     }
 
-    /// The loss of a collision, for which restitution takes `energy`. A guarded collision spares
-    /// this energy, or 0 if the contact is at rest.
+    /// The energy loss of a collision in which restitution would take `energy`. A guarded collision
+    /// spares this energy; at a contact at rest, the spared energy counts as 0.
     CARROM_DEVICE Loss loss(double energy, double squared_speed, bool is_guarded) const {
         if (!is_guarded) return {energy, 0};
         return {0, squared_speed > rest_speed_ * rest_speed_ ? energy : 0};

@@ -13,13 +13,13 @@ namespace {
 /// Factor of over-relaxation, which carries forces through a heap in fewer sweeps. With friction,
 /// sweeps with a larger factor do not converge.
 constexpr double relaxation = 1.3;
-/// Sweeps end when no velocity changes by more than this share of g T.
+/// Sweeps end when contact velocities change by at most this share of g times the sync interval.
 constexpr double small_change = 0.005;
-/// The largest number of sweeps for n contacts is this number plus the square root of n. A sync may
-/// end before the solution is reached, because the next sync continues from its impulses.
+/// The largest number of sweeps for n connected contacts is this plus the square root of n. A sync
+/// may end before the solution is reached, because the next sync continues from its impulses.
 constexpr double sweeps_at_most = 20;
-/// The number of sweeps for flows. There contacts change from sync to sync, so the last impulses
-/// are a poor start, and collisions due to wrong impulses take longer than more sweeps.
+/// The same number for flows (may_flow_on). There contacts change from sync to sync, so the last
+/// impulses are a poor start, and collisions due to wrong impulses take longer than more sweeps.
 constexpr double sweeps_of_flow = 400;
 
 } // namespace
@@ -36,9 +36,9 @@ struct ContactImpulses::Body {
 };
 
 struct ContactImpulses::Contact {
-    std::uint32_t a = 0, b = 0; ///< indices of bodies; b is the last one for all fixed bodies
+    std::uint32_t a = 0, b = 0; ///< indices of bodies; for a fixed body b is the last index
     std::uint32_t part = 0;
-    std::int64_t body = -1; ///< LastingContact::body
+    std::int64_t body = -1; ///< number of the fixed body, as LastingContact::body
     double nx = 0, ny = 0;
     double friction = 0, velocity = 0;
     double approach = 0; ///< the largest allowed speed of approach
@@ -147,7 +147,7 @@ std::vector<KeptImpulse> ContactImpulses::kept_of(std::span<const Contact> conta
     return kept;
 }
 
-/// Discs without impulses keep their bits.
+/// Does not change the bits of discs without impulses.
 void ContactImpulses::set_velocities(std::span<const Contact> contacts,
                                      std::span<const Body> bodies,
                                      std::span<HeapDisc> discs) const {
@@ -188,8 +188,8 @@ std::vector<ContactImpulses::Contact> ContactImpulses::lasting_contacts(
         contact.friction = one.friction;
         contact.velocity = one.velocity;
         contact.distance = one.distance;
-        // Discs closer than the rest gap need not move apart, because impulses would increase
-        // without end if the discs have no room.
+        // Discs closer than the rest gap are not pushed apart, because impulses would increase
+        // without limit if the discs had no room.
         contact.approach = std::max(one.gap - rest_gap_, 0.0) / interval_;
         contact.mass = 1 / (1 / species_.of(a.id).mass +
                             (is_pair ? 1 / species_.of(discs[one.b].id).mass : 0));

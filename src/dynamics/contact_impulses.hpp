@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact dynamics at a sync: impulses that keep slow discs from colliding until the next sync.
 //
-// A disc falls by g T^2 / 2 between two syncs. A disc that lies on others would collide again
-// and again. Instead it gets at the sync the impulse that its supports give it in the whole time T,
-// as in the time-stepping scheme of contact dynamics (Moreau 1988; Jean, Comput. Methods Appl.
-// Mech. Eng. 177, 235 (1999)). With w = v + g T / 2, the mean velocity until the next sync,
-// impulses P at the contacts are such that
+// Between two syncs, a time T apart, a disc falls by g T^2 / 2. A disc that lies on others would
+// collide again and again. Instead it gets at the sync the impulse that its supports give it in the
+// time T, as in the time-stepping scheme of contact dynamics (Moreau 1988; Jean, Comput. Methods
+// Appl. Mech. Eng. 177, 235 (1999)). With w = v + g T / 2, the mean velocity until the next sync,
+// the impulses P at the contacts are such that
 //
 //   gap + T w_n >= rest gap,   P_n >= 0,   with equality in at least one of the two;
 //   |P_t| <= mu P_n, directed against the slip
 //
-// A disc of a heap then has w = 0: it flies up by g T^2 / 8 and is back at the next sync. All discs
-// of the heap move together, so they do not collide and cost nothing. Pairs that approach faster
-// than `speed` are not lasting contacts, and collide. Pairs with inaccurate impulses collide, too,
-// so that such an impulse never makes an overlap.
+// A disc of a heap then has w = 0: it flies up by g T^2 / 8, the rest gap, and is back at the next
+// sync. All discs of the heap move together, so they do not collide and cost nothing. Pairs that
+// approach faster than `lasting_speed` (effects.hpp) are no lasting contacts, and collide. Pairs
+// with inaccurate impulses collide, too, so that such an impulse never makes an overlap.
 //
 // Gauss-Seidel sweeps with over-relaxation go over the contacts from the lowest up. They end when
-// impulses have converged, or after a number of sweeps. Then discs in contact that are left with
-// less than `least_motion` of g T stop (w = 0), so that a heap at rest repeats its state bit by
-// bit. The result is a function of the discs in the order of ids, so all ranks have the same bits.
-// Cost: some 10 ns for each contact and sweep.
+// impulses have converged, or after the largest number of sweeps. Then discs in contact whose w is
+// below `least_motion` times g T stop (w = 0), so that a heap at rest repeats its state bit by bit.
+// The result is a function of the discs in the order of ids, so all ranks have the same bits. Cost:
+// some 10 ns for each contact and sweep.
 #pragma once
 
 #include <array>
@@ -62,7 +62,7 @@ public:
                     double interval);
 
     /// Gives new velocities and spins to `discs`, which are in the order of ids. `kept` are the
-    /// impulses of the last sync, which this sync replaces by its own ones.
+    /// impulses of the last sync, which this function replaces by the new ones.
     LastingForces act(std::span<HeapDisc> discs, std::vector<KeptImpulse>& kept) const;
 
 private:
@@ -73,7 +73,7 @@ private:
         double normal = 0, along = 0;
     };
 
-    /// Forces of contacts that have an impulse; `discs` hold the velocities before them.
+    /// The impulses of contacts that press; `discs` hold the velocities before the impulses.
     LastingForces forces_of(std::span<const Contact> contacts, std::span<const HeapDisc> discs,
                             std::span<const Body> bodies) const;
     void add_fixed_body(WallImpulse& wall, const Contact& contact, const HeapDisc& disc,
@@ -100,7 +100,7 @@ private:
     double fall_x_, fall_y_; ///< speed gained in half a sync interval, g T / 2
     double rest_gap_;
     double turning_; ///< 1 over the moment of inertia in m r^2; 0 where discs do not turn
-    double sweeps_;  ///< largest number of sweeps, which grows with the number of contacts
+    double sweeps_;  ///< largest number of sweeps, without the term for the number of contacts
 };
 
 } // namespace carrom

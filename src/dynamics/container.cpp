@@ -13,7 +13,7 @@ namespace carrom {
 
 namespace {
 
-/// Distance from the sides of the box, relative to its shorter edge
+/// Distance of the closed line from the sides of the box, relative to half the shorter edge
 constexpr double inset = 0x1p-30;
 
 double length_of(const Segment& one) {

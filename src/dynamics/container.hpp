@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boxes that are not rectangles. Discs move inside a closed line of arcs and segments, which are
-// fixed bodies like those that a scene lists. The rectangle around it still defines strips, cells
-// and outputs.
+// fixed bodies like the ones in a scene's lists. The rectangle around the line still defines
+// strips, cells and outputs.
 //
 //   round      the largest circle in a square
 //   stadium    two halves of a circle, joined by segments along the longer side
 //
-// The line is a billionth of the box away from the sides, so that discs meet it before the sides,
-// despite any rounding.
+// The line is about half a billionth of the box's shorter edge away from the sides, so that discs
+// meet it before the sides, despite any rounding.
 #pragma once
 
 #include <cstdint>
@@ -44,9 +44,9 @@ private:
 };
 
 std::vector<Segment> edges_of(const Polygon& polygon);
-/// The scene's segments, then the edges of its polygons, then those of the box's shape.
+/// The scene's segments, then the edges of its polygons, then the segments of the box's shape.
 std::vector<Segment> all_segments(const FixedBodyList& fixed_bodies, const Box& box);
-/// The scene's arcs, then those of the box's shape.
+/// The scene's arcs, then the arcs of the box's shape.
 std::vector<Arc> all_arcs(const FixedBodyList& fixed_bodies, const Box& box);
 /// The area of the region in which discs move, fixed bodies inside it included.
 double area_of(const FixedBodyList& fixed_bodies, const Box& box);
@@ -56,7 +56,7 @@ struct BodyRow {
     std::string_view kind;    ///< "fixed disc", "segment", "polygon", "arc", or Container::name()
     std::uint32_t number = 0; ///< place in its list, from 1 on; 0 for the box's wall
     double x = 0, y = 0;      ///< its centre, or the mean of its corners if it has no centre
-    double length = 0;        ///< length of its line; both faces of a segment or an arc share it
+    double length = 0;        ///< length of its line; two faces of a segment or an arc count once
 
     std::string name() const; ///< name for messages, such as "fixed disc 3" or "the round wall"
 };

@@ -3,7 +3,7 @@
 // = (1 - exp(-c t)) / c. In the clock s all discs fly straight at constant speed, so everything
 // except the clock is exactly as without drag. For discs that fall see falling_frame.hpp.
 //
-// The code uses only + - * /, exact to some ulp, so the bits are the same on every machine.
+// The code uses only + - * /, accurate to a few ulps, so bits are the same on every machine.
 #pragma once
 
 namespace carrom {
@@ -11,7 +11,7 @@ namespace carrom {
 /// The reading of the clock s at the time `time` after the clock was set to 0.
 double drag_clock(double rate, double time);
 
-/// The factor exp(-rate time) by which velocities have fallen.
+/// The factor exp(-rate time) by which drag multiplies velocities.
 double drag_slowing(double rate, double time);
 
 /// The time at which the clock s shows `clock`. This function is for reports only, because it uses

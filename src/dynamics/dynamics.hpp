@@ -8,10 +8,10 @@
 //        sides, fixed bodies,
 //        flight                    walls, fixed bodies, and the frame of flights (surroundings.hpp)
 //
-// Each is a value with a small concept in its own header. The code that uses the first four is in
-// motion.hpp, and the code for everything else that discs meet is here. Kernels take a dynamics as
-// a template argument. Choices that are made for each pair are template parameters and all others
-// are made at run time, so that few combinations are compiled (all_dynamics.hpp).
+// Each part is a value with its own header; spaces and bodies have a concept there. The code that
+// uses the first four parts is in motion.hpp; the code for walls and fixed bodies is here. Kernels
+// take a dynamics as a template argument. Choices for each pair are template parameters and all
+// others are made at run time, so that few combinations are compiled (all_dynamics.hpp).
 //
 // Lengths are in the scene's unit. Times are micro-steps since the last sync, on the dynamics' own
 // clock. Positions and velocities are in the dynamics' own frame. Results depend on the stored
@@ -73,7 +73,7 @@ public:
     }
 
     /// From now on all radii are the scene's radii times `size`. Only for bodies that can grow, in
-    /// a scene whose radii do not grow at a rate.
+    /// a scene with a growth rate of 0.
     void resize(double size) {
         if constexpr (OfBodies::grow) bodies_.resize(size);
     }
@@ -103,8 +103,8 @@ public:
     void restart_frame(DiscState& disc, double time) const { flight_.restart(disc, time); }
     double jump_at(Axis axis, double time) const { return flight_.jump_at(axis, time); }
     double speed_gained_at(double time) const { return flight_.speed_gained_at(time); }
-    /// See StressSums. Where images move, kinetic stress is relative to the flow and changes during
-    /// a flight, so it is sampled at syncs instead, and this integral is 0.
+    /// See engine/stress_sums.hpp. Where images move, kinetic stress is relative to the flow and
+    /// changes in flight, so it is sampled at syncs instead, and this integral is 0.
     FlightIntegral flight_integral_at(double time) const {
         if constexpr (has_moving_images) return {};
         return flight_.flight_integral_at(time);
@@ -117,7 +117,7 @@ public:
 
     Extent extent_at(double time) const { return sides_.extent_at(time); } ///< walls' positions
     /// A disc that was inside the walls at some time in [begin, end], and is within these bounds at
-    /// the end, has met no wall in between.
+    /// the end, has met no wall from that time on.
     Extent walls_between(double begin, double end) const {
         return sides_.walls_between(begin, end);
     }
@@ -128,8 +128,8 @@ public:
     /// False means that the disc meets no wall before `time`; true means that it may meet one.
     bool may_meet_wall(const DiscState& disc, double time) const {
         const Body body = bodies_.at(disc, disc.tau);
-        // The product allows for the rounding of times: a fast disc flies some distance in a
-        // rounding error.
+        // The product allows for the rounding of times: within the rounding error of a time a fast
+        // disc flies some distance.
         const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy)) +
                                (speed_gained_at(time) + body.outwards);
         const double margin = (tolerance_ + arithmetic_.place_rounding()) +

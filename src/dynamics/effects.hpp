@@ -48,8 +48,8 @@ struct ContactPair {
                is_same_number(a.friction, b.friction);
     }
 };
-/// A row of `contacts` of a side or of the fixed bodies: numbers for discs of one row of
-/// `discs.species`, counted from 1. NaN: the number of the surface for all discs is used.
+/// A row of `contacts` of a side or of the fixed bodies: coefficients for discs of one row of
+/// `discs.species`, counted from 1. NaN: the surface's coefficient for all discs is used.
 struct SurfaceContact {
     double species = 1;
     double restitution = 1, tangential_restitution = -1, friction = 0;
@@ -60,7 +60,7 @@ struct SurfaceContact {
                is_same_number(a.friction, b.friction);
     }
 };
-/// Consecutive ids, up to `end`, of the discs of one row of `discs.species`, counted from 0.
+/// Row `row`, from 0, of `discs.species` has the ids from the previous entry's `end` to `end` - 1.
 struct SpeciesRow {
     DiscId end = 0;
     std::size_t row = 0;
@@ -113,7 +113,7 @@ struct Surface {
 
 /// Discs that come in through an open side (scene/effects/inlets.cpp).
 struct Inlet {
-    double rate = 0;          ///< discs per time
+    double rate = 0;          ///< mean number of discs that come in per time
     double temperature = 0;   ///< kT of the gas outside, a velocity squared, for masses of 1
     std::int64_t species = 0; ///< a row of `discs.species`, counted from 1; 0 means any row
 
@@ -123,14 +123,14 @@ struct Inlet {
 
 struct Boundary {
     BoundaryKind kind = BoundaryKind::wall;
-    double restitution = 1; ///< restitution of walls, also of moving ones
+    double restitution = 1; ///< restitution of walls, also of moving and oscillating ones
     /// Temperature of thermal walls: kT, a velocity squared, for masses of 1
     double temperature = 0;
-    double speed = 0; ///< speed of moving walls, along +x or +y
+    double speed = 0; ///< velocity of moving walls, along +x or +y
     // For oscillating walls (oscillation.hpp):
     double amplitude = 0;
     double period = 1;
-    double phase = 0; ///< phase at the scene's start
+    double phase = 0; ///< phase at the scene's start, in radians
     Surface surface{};
     Inlet inlet{}; ///< the inlet of an open side
 
@@ -166,7 +166,7 @@ struct Acceleration {
     friend bool operator==(const Acceleration&, const Acceleration&) = default;
 };
 
-/// Fixed bodies in the box that reflect discs (fixed_bodies.hpp).
+/// A fixed disc. Like all fixed bodies in the box, it reflects discs (fixed_bodies.hpp).
 struct FixedDisc {
     double x = 0, y = 0, radius = 0;
 
@@ -227,13 +227,13 @@ struct FixedBodyList {
     friend bool operator==(const FixedBodyList&, const FixedBodyList&) = default;
 };
 
-/// How discs are kept in motion, at syncs (scene/effects/thermostat.cpp). Rates are per step.
+/// How discs are kept in motion, at syncs (scene/effects/thermostat.cpp). Time unit: see Effects.
 enum class ThermostatKind { none, kicks, andersen, langevin, rescale };
 
 struct Thermostat {
     ThermostatKind kind = ThermostatKind::none;
-    double strength = 0;    ///< xi^2 of kicks
-    double rate = 0;        ///< rate at which discs get new velocities, or rate of friction
+    double strength = 0;    ///< strength xi^2 of the random kicks, a velocity squared per time
+    double rate = 0;        ///< rate of new velocities (andersen), or of friction (langevin)
     double temperature = 0; ///< kT, a velocity squared, for masses of 1
     std::uint64_t seed = 3210;
 
@@ -246,12 +246,12 @@ struct Thermostat {
     friend bool operator==(const Thermostat&, const Thermostat&) = default;
 };
 
-/// Discs that propel themselves (scene/effects/activity.cpp). Rates are per step.
+/// Discs that propel themselves (scene/effects/activity.cpp). Time unit: see Effects.
 struct Activity {
     double speed = 0; ///< speed of a free disc whose direction does not change
-    double force = 0; ///< alternatively the same force for all discs, whatever their mass
-    double rotational_diffusion = 0; ///< the mean squared angle grows by twice this per time
-    double tumble_rate = 0;          ///< rate at which a disc takes a new random direction
+    double force = 0; ///< instead of a speed: the same force on all discs, whatever their mass
+    double rotational_diffusion = 0; ///< mean squared change of the angle per time, divided by 2
+    double tumble_rate = 0;          ///< how often per time a disc takes a new random direction
     std::uint64_t seed = 3210;
 
     bool is_on() const { return speed != 0 || force != 0; }
@@ -285,7 +285,7 @@ struct Swaps {
 };
 
 /// Numbers of effects that act at syncs only. The file of such an effect declares its keys
-/// (`own_key` in scene/key_members.hpp) and reads the numbers by their names; no other code knows
+/// (`own_key` in scene/key_members.hpp) and reads the numbers by their names; no other code uses
 /// them.
 class OwnNumbers {
 public:
@@ -344,7 +344,7 @@ struct Effects {
                         growth, shear, lasting_speed, thermostat, activity, swap, barostat, own,
                         field);
     }
-    /// The acceleration of discs in free flight by all fields together, without drag.
+    /// The uniform acceleration of discs in free flight, without drag.
     Acceleration acceleration() const { return gravity; }
     /// Whether velocities change only in collisions and at syncs.
     bool are_flights_free() const { return !acceleration().is_on() && drag == 0; }
@@ -368,7 +368,7 @@ struct Effects {
     }
     /// The factor by which radii have grown from the scene's start to `time`.
     double size_at(double time) const { return 1 + growth * time; }
-    /// Restarts growth: radii that have grown by the factor `size` become those at the start.
+    /// Restarts growth: radii that have grown by the factor `size` become the radii at the start.
     void begin_at(double size) { growth /= size; }
     bool are_any() const {
         return std::apply([](const auto&... all) { return (is_feature_on(all) || ...); },
@@ -377,7 +377,7 @@ struct Effects {
     friend bool operator==(const Effects&, const Effects&) = default;
 };
 
-/// The numbers that discs have besides their states under these effects.
+/// The side columns (core/side_columns.hpp) that a run with these effects has.
 SideColumnSet side_columns_of(const Effects& effects);
 
 /// The part of a summary line that describes the species; empty without species. `summary_of`

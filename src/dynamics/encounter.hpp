@@ -18,7 +18,7 @@ template <class Real> struct Encounter {
     Real wx = 0, wy = 0;
 
     CARROM_DEVICE Real square() const { return ex * ex + ey * ey; }
-    /// The rate at which the distance of the centres grows, in units of the distance.
+    /// The rate at which the distance of the centres grows, divided by the distance.
     CARROM_DEVICE Real rate() const { return (wx * ex + wy * ey) / (ex * ex + ey * ey); }
 };
 

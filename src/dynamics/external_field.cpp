@@ -48,7 +48,7 @@ std::vector<double> line_coefficients(const std::vector<double>& f) {
 
 } // namespace
 
-/// Weights of four coefficients, from index `first` on, for the value and the derivative.
+/// Weights of four coefficients, from index `first` on, for the spline's value and its derivative.
 struct FieldSpline::Weights {
     std::size_t first = 0;
     std::array<double, 4> value{}, slope{};
@@ -128,7 +128,7 @@ FieldPoint FieldSpline::at(double x, double y, const Box& box) const {
     return sum;
 }
 
-/// A second derivative is a weighted mean of differences of coefficients, with positive weights.
+/// A second derivative is a weighted mean of second differences of coefficients, with weights >= 0.
 /// The eigenvalues of the matrix of second derivatives are at most the sum of magnitudes in a row.
 double FieldSpline::largest_curvature(const Box& box) const {
     if (!data_) return 0;

@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    /// The points along an axis.
+    /// The grid points along an axis; it goes round if it is periodic or has one point only.
     struct Line {
         std::size_t n = 0;
         bool goes_round = false;
@@ -75,7 +75,7 @@ private:
     };
     struct Data {
         Line x, y;
-        /// Rows along x, with one extra before and two after the ends
+        /// Rows of coefficients along x; each axis has one extra before and two after its points
         std::vector<double> coefficients;
         double low = 0, high = 0;
 
@@ -95,11 +95,11 @@ private:
 
 enum class FieldKind { none, trap, sine, grid };
 
-/// `[effects.field]`; times in steps in a scene, in micro-steps in a dynamics.
+/// The keys of `[effects.field]`; times are in steps in a scene, in micro-steps in a dynamics.
 struct ExternalField {
     FieldKind kind = FieldKind::none;
     double stiffness_x = 0, stiffness_y = 0; ///< stiffness of a trap: force per length
-    /// Centre of a trap or sine; by default the middle of the box
+    /// Centre of a trap; by default the middle of the box
     std::optional<double> centre_x, centre_y;
     double amplitude = 0; ///< energy of a sine, or factor of the values on a grid
     Axis axis = Axis::x;  ///< the axis along which a sine changes

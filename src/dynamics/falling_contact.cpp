@@ -10,7 +10,7 @@ double falling_contact(double dx, double dy, double wx, double wy, double gx, do
                        double reach) {
     const Parabola flight{dx, dy, wx, wy, gx, gy, reach};
     const auto rate = [&flight](double s) { return flight.rate(s); };
-    double start = 0; // beginning of the present piece
+    double start = 0; // beginning of the present piece of time
     double fall = 0;  // time since which the distance decreases, if it does
     bool falls = flight.rate(0).value < 0;
     const auto [first, second] = flight.bends();

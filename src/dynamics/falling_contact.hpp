@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes when a point on a parabola first comes within a distance of a point at rest.
+// Computes when a point on a parabola first comes within a given distance of a point at rest.
 // Fixed bodies need this where discs fall.
 //
 // The squared distance is a quartic of the time. The roots of its second derivative divide time

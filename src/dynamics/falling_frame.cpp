@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// A lower bound of 1 - c s for contacts.
+/// Contacts count only while drag's factor of the velocities, 1 - c s, is at least this.
 constexpr double least_slowing = 0.01;
 /// Limit of Newton's steps; four to twelve are needed.
 constexpr int most_steps = 100;
@@ -79,7 +79,7 @@ FlightIntegral FallingFrame::flight_integral_at(double time) const {
     const double q = drag_ * time, weight = time * (1 - 0.5 * q);
     if (!acceleration_.is_on()) return {weight, 0, 0, 0, 0};
     if (sway_.is_on()) return swaying_flight_integral_at(time);
-    double of_squares = 0; // integral of the squares, divided by s^3
+    double of_squares = 0; // the integral of s^2 / (1 - q), divided by s^3
     if (q < 0x1p-6) {
         for (int k = 10; k >= 3; --k) of_squares = 1.0 / k + q * of_squares;
     } else {

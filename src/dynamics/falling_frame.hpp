@@ -3,7 +3,7 @@
 //
 // All discs have the same acceleration, so states are stored in a frame that falls with them and is
 // at rest in the box at each sync. Discs fly straight in this frame, so collisions of pairs do not
-// depend on the fall. A wall rises in it, and a disc meets a wall at the root of a quadratic.
+// depend on the fall. In the frame walls rise, and a disc meets a wall at the root of a quadratic.
 //
 // With drag of the rate c the frame has its own clock s. A disc under the acceleration g is at x +
 // v s + g F(s), with F = (-log(1 - c s) - c s) / c^2 >= s^2 / 2. The term g F(s) is the same for
@@ -44,13 +44,13 @@ inline double fall_delay(double distance, double velocity, double pull) {
     return (velocity + std::sqrt(std::max(velocity * velocity - 2 * pull * distance, 0.0))) / -pull;
 }
 
-/// F(s) for drag of the rate c, exact to a few ulp; 0 <= c s < 1.
+/// F(s) for drag of the rate c, accurate to a few ulps; 0 <= c s < 1.
 double dragged_fall(double rate, double clock);
 /// The derivative of F, s / (1 - c s).
 inline double dragged_fall_speed(double rate, double clock) { return clock / (1 - rate * clock); }
 
-/// Like fall_delay, for distance + velocity s + pull F(s), on drag's clock from now on. Contacts
-/// after drag has cut velocities to a hundredth are ignored, because a sync is earlier.
+/// Like fall_delay, for distance + velocity s + pull F(s), where drag's clock s shows 0 now.
+/// Contacts after drag has cut velocities to a hundredth are ignored, because a sync is earlier.
 double dragged_fall_delay(double distance, double velocity, double pull, double rate);
 
 /// The frame that falls with the discs, and its clock, which gives the times since the last sync.

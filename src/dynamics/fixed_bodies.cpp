@@ -15,13 +15,13 @@ namespace {
 /// A disc in the box may touch the body or one of its eight images in neighbouring boxes.
 constexpr std::uint32_t n_images = 9;
 
-/// The least slope at which a disc leaves the inner face of an arc, because a disc that flies along
-/// the face collides without end. The change of energy is below the rounding of 1000 collisions.
+/// The least ratio of normal to tangential velocity of discs that leave the inner face of an arc,
+/// because a disc along the face collides without end. Energy changes by a share of 1e-12 at most.
 constexpr double least_slope = 1e-6;
 
 /// The first time at which a distance with the initial `rate` and a constant acceleration `pull`
-/// falls to 0. If the distance is not positive and the disc is on this side of the body, it is the
-/// time at which the disc turns back; on the other side the distance must become positive first.
+/// falls to 0. If the distance is not positive and the disc is on this side of the body, the result
+/// is when the disc turns back; on the other side the distance must become positive first.
 double fall_delay(double distance, double rate, double pull, bool is_on_side) {
     if (rate < 0) {
         if (!(distance > 0)) return is_on_side ? 0 : never;
@@ -67,7 +67,7 @@ void FixedBodies::add_line(const Segment& segment, double slides) {
     bodies_.push_back({segment.x1, segment.y1, 0});
 }
 
-/// Ends of the scene's arcs do not slide. Ends of the box's arcs have `slides` -1, like its lines.
+/// Surfaces at ends of a scene's arcs rest; at ends of the box's arcs `slides` is -1, as for lines.
 void FixedBodies::add_arc(const Arc& arc, bool is_of_box) {
     Body face{arc.x, arc.y, arc.radius};
     face.is_arc = true;
@@ -106,7 +106,7 @@ FixedBodies::Cells FixedBodies::cells_of(const Extent& extent) const {
             rows_.cell_of(extent.y_low - margin_), rows_.cell_of(extent.y_high + margin_)};
 }
 
-/// The cells whose bodies a disc of that radius may touch while its centre is in `extent`. A cell
+/// The cells whose bodies a disc of this radius may touch while its centre is in `extent`. A cell
 /// contains the bodies that discs of the largest radius touch there, and discs may have grown.
 FixedBodies::Cells FixedBodies::cells_near(const Extent& extent, double radius) const {
     const double more = std::max(radius - largest_radius_, 0.0);
@@ -180,8 +180,8 @@ template <class What> void FixedBodies::visit_cells(const Cells& cells, const Wh
 }
 
 /// The number of the touched image of the body; without periodic sides the number of the body.
-/// Images are numbered relative to the box that contains the centre (x, y) of the disc after its
-/// fall, so the number is the same in whichever box the disc's state is stored.
+/// Images are numbered relative to the box that contains the disc's centre (x, y) at the contact,
+/// so the number is the same in whichever box the disc's state is stored.
 std::uint32_t FixedBodies::code_of(const Entry& image, double x, double y) const {
     if (!periods_.are_any()) return image.body;
     const int dx = periods_.x == 0 ? 0 : image.x - static_cast<int>(std::floor(x / periods_.x));
@@ -330,11 +330,11 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     const double slides = from_body.is_hollow ? -at.slides : at.slides;
     const auto& [restitution, rubbing] = surface_.of(disc.id);
     const double normal = nx * (disc.vx + pull_[0] * time) + ny * (disc.vy + pull_[1] * time);
-    // A disc that grows bounces as from a body that moves at the speed of its surface.
+    // A disc that grows bounces as from a body that moves at the speed of the disc's surface.
     const double closing = std::fabs(outwards - normal);
     const bool is_guarded = guard_.holds_at_wall(since, closing, turning.radius);
     double away = outwards + (is_guarded ? 1 : restitution) * closing;
-    // A disc that is pulled back leaves so fast that it stays away for a contact time, as at walls.
+    // A disc that is pulled back leaves so fast that its next collision is unguarded, as at walls.
     double pull = -(nx * pull_[0] + ny * pull_[1]);
     const auto speed_along = [&] {
         return nx * (disc.vy + pull_[1] * time) - ny * (disc.vx + pull_[0] * time);

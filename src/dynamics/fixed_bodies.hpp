@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fixed bodies in a box: discs, straight segments, and arcs of circles; segments and arcs have a
 // disc of radius 0 at either end. A disc that meets one is reflected, as by a wall. They are the
-// obstacles of a scene, its frozen discs, and the wall of a box that is no rectangle
+// obstacles of a scene, its frozen discs, and the wall of a box that is not a rectangle
 // (container.hpp).
 //
 // A disc of radius r touches a fixed disc of radius R if their centres are r + R apart (the
 // predicate of pairs; a quartic where discs fall: falling_contact.hpp), a segment if it is r from
 // its line (a quadratic), and an arc from either side (arc_contact.hpp). The radius may grow
 // (growing_contact.hpp), but not where discs fall. The contact is a function of the stored state
-// alone. A grid of cells, built once, holds the bodies. A flight searches the
-// cells along its path, up to its first contact. In a periodic box the grid repeats itself, and a
-// body is also in the cells that its images cover. A stored state may be many boxes away: bodies
-// are shifted to it by whole box lengths.
+// alone. A grid of cells, built once, holds the bodies. For a flight the cells along its path are
+// searched, up to its first contact. In a periodic box the grid repeats itself, and a body is also
+// in the cells that its images cover. A stored state may be many boxes away: bodies are shifted to
+// it by whole box lengths.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ struct BodyContact {
     bool exists() const { return body != no_body; }
 };
 
-/// The range of times in which contacts count, since the last sync.
+/// The range of times, since the last sync, in which contacts count.
 struct ContactTimes {
     double from = 0, to = 0;
     bool hold_from = true;                       ///< whether a contact exactly at `from` counts
@@ -63,17 +63,17 @@ struct BodyTouch {
 
 class FixedBodies {
 public:
-    /// `effects` have times in micro-steps; before discs grow none is larger than `largest_radius`.
+    /// `effects` have times in micro-steps. `largest_radius` is for discs that have not grown yet.
     FixedBodies(const Box& box, double largest_radius, const Effects& effects);
 
-    /// The first body that a disc of that size meets within these times. If the disc meets two
+    /// The first body that a disc of this size meets within these times. If the disc meets two
     /// bodies at the same time, the one with the lower number counts.
     BodyContact first_contact(const DiscState& disc, const DiscSize& size,
                               const ContactTimes& times) const;
 
     /// Reflects a disc at `time` from the fixed body with the number `code`, see BodyContact. The
     /// state is advanced to `time` already; `since` is the time since the disc's last collision.
-    /// The surface moves out at the speed `outwards`. Returns the loss of energy for a mass of 1.
+    /// The disc grows at the speed `outwards`. Returns the loss of energy for a mass of 1.
     Loss rebound(DiscState& disc, std::uint32_t code, double time, double since, double outwards,
                  const Turning& turning) const;
 
@@ -84,9 +84,9 @@ public:
 
     struct Overlap {
         double depth = 0;
-        std::uint32_t body = BodyContact::no_body; ///< the same for all images of a body
+        std::uint32_t body = BodyContact::no_body; ///< its number, for all its images
     };
-    /// The body with which a disc of that radius at (x, y) in the box overlaps most, if the overlap
+    /// The body with which a disc of this radius at (x, y) in the box overlaps most, if the overlap
     /// is more than `least`; otherwise, or without bodies, `no_body`.
     Overlap deepest_overlap(double x, double y, double radius, double least) const;
     bool do_overlap(double x, double y, double radius) const {
@@ -98,8 +98,8 @@ public:
 
 private:
     struct Body {
-        double x, y;                       ///< the centre of a disc, or one end of a line
-        double radius;                     ///< radius of a fixed disc; 0 for a line
+        double x, y;                       ///< the centre of a disc or an arc, or one end of a line
+        double radius;                     ///< radius of a fixed disc or an arc; 0 for a line
         double ux = 0, uy = 0, length = 0; ///< direction and length of a line
         /// Velocity of the surface, counterclockwise, in units of the scene's value for surfaces
         double slides = 1;
@@ -173,7 +173,7 @@ private:
     double largest_radius_; ///< largest radius of a disc before it grows
     /// Fixed discs; then the line and the two ends of each segment, edge and arc
     std::vector<Body> bodies_;
-    std::vector<std::uint32_t> first_bodies_; ///< first body of each row after the fixed discs
+    std::vector<std::uint32_t> first_bodies_; ///< index of each row's first body, after the discs
     std::vector<BodyRow> rows_of_bodies_;
     CellAxis columns_, rows_;
     double margin_ = 0;

@@ -6,7 +6,7 @@
 // predicate of constant sizes (pair_contact.hpp) is used with w - g d in place of w. Each component
 // of w - g d is rounded once, by a fused multiply-add. The cross product is taken of d and w for
 // any g, so that this rounding does not affect a graze. No bit depends on the order of the pair or
-// the names of the axes. Without growth the bits are those of contact_delay.
+// the names of the axes. Without growth the bits equal the bits of contact_delay.
 #pragma once
 
 #include "dynamics/pair_contact.hpp"
@@ -14,7 +14,7 @@
 namespace carrom {
 
 /// Like contact_delay, for a distance `sigma` that grows at the rate `growth` times `sigma`, with
-/// `growth` >= 0. The error is that of contact_delay for w - g d, times (1 + g t)^2.
+/// `growth` >= 0. The error is (1 + g t)^2 times the error of contact_delay for w - g d.
 template <class Real>
 [[gnu::always_inline]] CARROM_DEVICE inline Real growing_contact_delay(Real dx, Real dy, Real wx,
                                                                        Real wy, Real sigma,

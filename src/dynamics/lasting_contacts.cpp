@@ -65,7 +65,7 @@ struct LastingContactFinder::Search {
     std::span<const double> radii;
     double widest_gap, largest_radius;
     CellLine columns, rows;
-    std::vector<std::uint32_t> starts, sorted; ///< sorted: discs in the order of their cells
+    std::vector<std::uint32_t> starts, sorted; ///< where cells begin in `sorted`; discs by cell
     std::vector<LastingContact> found;
 
     Search(const Box& box, const Effects& effects, std::span<const HeapDisc> all,
@@ -169,8 +169,8 @@ void LastingContactFinder::begin_at(const SurfaceTable& surface, std::uint32_t i
     contact.friction = surface.of(disc.id).rubbing.friction();
 }
 
-/// Thermal and moving walls have no lasting contacts. In a box of another shape than a rectangle
-/// discs do not reach the sides.
+/// Only walls at rest that are not thermal have lasting contacts. In a box of another shape than a
+/// rectangle discs do not reach the sides.
 void LastingContactFinder::add_walls(Search& search) const {
     if (effects_.fixed_bodies.has_shape()) return;
     for (std::int64_t side = 0; side < 4; ++side) {
@@ -215,7 +215,7 @@ void LastingContactFinder::add_fixed_bodies(Search& search) const {
     const std::size_t n_turning = Container(fixed_bodies.shape, box_).segments().size();
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const Segment& line = lines[k];
-        // The surface of the box's wall moves in the direction of its arcs.
+        // The surface of the box's own wall moves counterclockwise, on segments as on arcs.
         contact.velocity = fixed_bodies.surface.velocity * (k + n_turning < lines.size() ? -1 : 1);
         ++contact.body;
         search.in_rectangle(std::min(line.x0, line.x1) - reach, std::max(line.x0, line.x1) + reach,
@@ -230,7 +230,7 @@ void LastingContactFinder::add_fixed_bodies(Search& search) const {
     for (const Arc& arc : all_arcs(fixed_bodies, box_)) add_arc(search, arc, contact);
 }
 
-/// The tangent of a contact turns counterclockwise around the arc's centre only for discs inside.
+/// The tangent of a contact points counterclockwise along the arc only for discs inside it.
 void LastingContactFinder::add_arc(Search& search, const Arc& arc, LastingContact& contact) const {
     ++contact.body;
     const double far = arc.radius + search.largest_radius + search.widest_gap,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds pairs, and discs at walls and fixed bodies, that are so close at a sync that they may press
-// each other until the next sync. Cells as wide as the largest contact are searched.
+// on each other until the next sync. Searches cells as wide as the largest distance of centres.
 //
 // A contact that is left out costs time but causes no error, because its discs collide instead.
 #pragma once

@@ -11,7 +11,7 @@
 //                 of more than `friction` times the normal impulse. A guarded contact is
 //                 smooth.
 //
-// The coefficients are those of the pair of species (pair_table.hpp).
+// The coefficients depend on the species of both discs (pair_table.hpp).
 //
 // The law is chosen at run time: a collision takes some 2,900 instructions with everything that it
 // causes, so a branch in it costs almost nothing.
@@ -53,7 +53,7 @@ public:
     CARROM_DEVICE bool has_spin() const { return kind_ == ContactKind::rough; }
     CARROM_DEVICE bool is_elastic() const { return kind_ == ContactKind::elastic; }
 
-    /// Gives two discs whose surfaces meet in this encounter their new velocities and spins.
+    /// Sets the velocities and spins after a collision; `met` is the encounter of the surfaces.
     template <class Real>
     [[gnu::always_inline]] CARROM_DEVICE Loss meet(DiscState& p, DiscState& q,
                                                    const Encounter<Real>& met,
@@ -85,9 +85,9 @@ private:
     /// (1 + e) / 2, which is `normal`, at any speed.
     CARROM_DEVICE double normal_at(double normal, double /*speed*/) const { return normal; }
 
-    /// `impulse` is relative to that of an elastic contact. It changes the velocity of each disc by
-    /// the share 2 m' / (m + m'), where m' is the mass of the other disc. For equal masses this
-    /// share is 1, which changes no bit.
+    /// `impulse` is in units of the impulse of an elastic contact. The velocity of a disc changes
+    /// by this times 2 m' / (m + m') times the normal relative velocity, where m' is the mass of
+    /// the other disc. For equal masses the share 2 m' / (m + m') is 1, which changes no bit.
     template <class Real>
     [[gnu::always_inline]] CARROM_DEVICE static void push_apart(DiscState& p, DiscState& q,
                                                                 const Encounter<Real>& met,
@@ -116,8 +116,8 @@ private:
     }
 
     /// Like meet_smooth, with an additional impulse s along the surfaces, which turns both discs in
-    /// the same sense. Both s and k are in units of the distance between centres. With s = 0 the
-    /// bits are those of meet_smooth. Spins are angles per micro-step, counterclockwise.
+    /// the same sense. Here s and k are velocities divided by the distance of centres. With s = 0
+    /// the bits equal the bits of meet_smooth. Spins are angles per micro-step, counterclockwise.
     CARROM_DEVICE Loss meet_rough(DiscState& p, DiscState& q, const Encounter<double>& met,
                                   const SizeAndMass& p_has, const SizeAndMass& q_has, double since,
                                   const Spins& spins) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sides of a box without effects: four elastic walls at rest, for discs of one radius. Its
-// functions have the same names as those of boundaries.hpp, which has the sides of scenes with
-// effects.
+// The sides of a box without effects: four elastic walls at rest, for discs of one radius.
+// MirrorSides has functions with the same names as Boundaries (boundaries.hpp), which has the sides
+// of scenes with effects.
 #pragma once
 
 #include <cstdint>

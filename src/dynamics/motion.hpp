@@ -107,7 +107,7 @@ public:
     // Pairs.
 
     /// The contact of two discs in free flight (pair_contact.hpp). Discs that overlap by more than
-    /// `deepest_overlap` have none.
+    /// `deepest_overlap` have no contact.
     [[gnu::always_inline]] CARROM_DEVICE PairContact<Real> contact(const DiscState& p,
                                                                    const DiscState& q,
                                                                    double deepest_overlap) const {
@@ -143,7 +143,7 @@ public:
         const Encounter<double> met = space_.see(p, q, q.x - p.x, q.y - p.y, p.tau);
         return {met.ex, met.ey};
     }
-    /// The separation from p to q, whose states are at `time` or earlier.
+    /// The separation from p to q at `time`; their states are at this time or earlier.
     CARROM_DEVICE Separation separation_at(const DiscState& p, const DiscState& q,
                                            double time) const {
         const Encounter<double> met = space_.see(p, q, q.x_at(time) - p.x_at(time),

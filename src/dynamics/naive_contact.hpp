@@ -5,8 +5,8 @@
 // The code computes B^2 - 4 A C and -B - sqrt(...) directly. Both subtract nearly equal numbers
 // when a pair is far apart or grazes. In single precision the formula misses a fifth of the hits at
 // a thousand diameters (docs/understanding/accuracy.md), and would miss seven tenths if a
-// discriminant that rounds to 0 counted as no contact. If a pair overlaps, even by a rounding, the
-// root is in the past, so the discs pass through each other.
+// discriminant that rounds to 0 counted as no contact. If a pair overlaps, even by a rounding
+// error, the root is in the past, so the discs pass through each other.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace carrom {
 
-/// The time until the points come within `sigma`; negative if they never do, and if they overlap
+/// The time until the points come within `sigma`; negative if they never do, or if they overlap
 /// already. With `contracted`, products and sums are fused as by a compiler with
 /// -ffp-contract=fast. The fused operations are written out, so that all compilers give the same
 /// result.

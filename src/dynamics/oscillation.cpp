@@ -12,15 +12,15 @@ namespace carrom {
 
 namespace {
 
-/// A disc comes within the wall's reach at most twice; more visits allow for rounding.
+/// A flight comes within the wall's amplitude at most twice; more visits allow for rounding.
 constexpr int most_visits = 8;
-/// A search begins and ends this many periods outside of the time in which the disc is within
-/// reach.
+/// A search begins this many periods before the disc comes within the wall's amplitude, and ends
+/// one period and this many later than that.
 constexpr double margin = 1.0 / 16;
 /// A time in periods that is much longer than any time between syncs.
 constexpr double latest = 0x1p40;
 
-/// The turns from -1/4 to 1/4 with this sine, by bisection.
+/// The angle, in turns from -1/4 to 1/4, that has this sine, by bisection.
 double turns_of_sine(double sine) {
     double low = -0.25, high = 0.25;
     for (;;) {
@@ -46,7 +46,7 @@ Oscillation::Oscillation(const Boundary& side, double sign, double acceleration,
     rate_ = two_pi / period_;
     phase_ = whole_turns_off(side.phase / two_pi);
     turns_ = phase_;
-    // At this sine the wall's acceleration equals that of falling discs.
+    // At this sine the wall and falling discs have the same acceleration.
     const double sine = -acceleration / (amplitude_ * rate_ * rate_);
     const double bend = std::fabs(sine) < 1 ? turns_of_sine(sine) : 0.25;
     first_bend_ = whole_turns_off(bend);
@@ -86,7 +86,7 @@ struct Oscillation::Flight {
         const auto [slope, bend] = rate_at(s);
         return slope < 0 || (slope == 0 && bend < 0);
     }
-    /// The next time at which the disc is deeper within the wall's reach than the slack.
+    /// The next time at which the disc is within the amplitude, less the slack, of the wall's line.
     double entry_after(double s) const {
         const double left = from_line_at(s) - wall.amplitude_ + wall.slack_;
         return left > 0 ? s + fall_delay(left, rate + wall.pull_ * s, wall.pull_) : s;

@@ -47,8 +47,8 @@ public:
 
     /// The time after `time` until the disc first is at the wall or beyond, and approaches it.
     /// `distance` is the distance from the line towards the inside at `time`, and `rate` is the
-    /// derivative of `distance`. `from_wall` is the rate relative to the wall itself; its sign
-    /// decides about a contact at `time`. Contacts that are less deep than the slack may be missed.
+    /// derivative of `distance`. `from_wall` is the rate relative to the wall itself; if it is
+    /// positive, there is no contact at `time`. Contacts less deep than the slack may be missed.
     double contact_delay(double distance, double rate, double from_wall, double time) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes when two freely flying discs touch. All decisions rest on this predicate
+// Computes when two freely flying discs touch. All contacts of pairs follow from this predicate
 // (docs/understanding/method.md, section 4).
 //
 // The discriminant is taken as (sqrt(A) sigma - |X|)(sqrt(A) sigma + |X|) with the cross product X
@@ -25,7 +25,7 @@ template <class Real> struct PairContact {
     CARROM_DEVICE bool exists() const { return delay >= 0; }
 };
 
-/// Twice the area spanned by (ax, ay) and (bx, by), to within about an ulp of the result.
+/// The cross product ax by - ay bx, to within about an ulp of the result.
 template <class Real> CARROM_DEVICE Real cross(Real ax, Real ay, Real bx, Real by) {
     const Real p1 = ax * by;
     const Real e1 = std::fma(ax, by, -p1);
@@ -35,9 +35,9 @@ template <class Real> CARROM_DEVICE Real cross(Real ax, Real ay, Real bx, Real b
 }
 
 /// The time until points at separation (dx, dy) with relative velocity (vx, vy) come within
-/// `sigma`; negative if they never do. Pairs that overlap by more than `deepest_overlap` never do;
-/// if it is infinite, overlapping pairs collide immediately if they approach. The cross product is
-/// that of the separation and (wx, wy). For growing discs (wx, wy) is the velocity before a
+/// `sigma`; negative if they never do, or if the pair overlaps by more than `deepest_overlap`. If
+/// this is infinite, overlapping pairs that approach collide immediately. The cross product is
+/// taken of the separation and (wx, wy). For growing discs (wx, wy) is the velocity before a
 /// rounded part along the separation was subtracted, so that this rounding has no effect on a
 /// graze. Always inlined, so that the code of one dynamics does not depend on which others are
 /// compiled with it.

@@ -19,9 +19,9 @@ namespace carrom {
 
 /// The factors of a law for one pair of rows.
 struct PairFactors {
-    double normal = 1;     ///< (1 + e) / 2: the impulse in units of that of an elastic contact
-    double tangential = 0; ///< half the share of the sliding velocity that the impulse takes where
-                           ///< surfaces stick; 0 if smooth
+    double normal = 1;     ///< normal impulse relative to an elastic contact, (1 + e) / 2
+    double tangential = 0; ///< tangential impulse over sliding velocity where surfaces stick, for
+                           ///< masses of 1; 0 if smooth
     double friction = 0;   ///< coefficient of Coulomb's friction
 
     static PairFactors of(double restitution, double tangential_restitution, double friction,

@@ -19,7 +19,7 @@ struct ValueAndRate {
     double value, slope;
 };
 
-/// The root of a function with different signs at the ends, whose value and slope are known.
+/// The root of a function with different signs at the ends. `function(s)` gives value and slope.
 template <class Function>
 double root_between(double low, double high, bool rises, const Function& function) {
     double s = low + (high - low) / 2;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elastic walls at rest, for one coordinate of a disc's centre. `Real` is double, or float for the
-// accuracy study.
+// Walls at rest, for one coordinate of a disc's centre. `Real` is double, or float for the accuracy
+// study.
 //
-// In the time-stepped method the position of the disc at the end of micro-step m decides whether it
-// bounces off the wall ahead. A slow disc that ends within the band at a wall bounces at t = 1
-// without a contact, because rounding might otherwise keep it there for ever.
+// In the time-stepped method the position of the disc at the end of micro-step m determines whether
+// it bounces off the wall ahead. A slow disc that ends within the band at a wall bounces at the end
+// of the micro-step without a contact, because rounding might otherwise keep it there for ever.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ template <class Real> class RestingWalls {
 public:
     static constexpr Real never = std::numeric_limits<Real>::infinity();
 
-    /// `radius` is the disc's radius; `band` is the width within which a slow disc bounces.
+    /// `radius` is the disc's radius; `band` is the width of the band in which a slow disc bounces.
     CARROM_DEVICE RestingWalls(Real length, Real radius, Real band)
         : low_(radius), high_(length - radius), band_(band) {}
 
@@ -36,7 +36,7 @@ public:
         return never;
     }
 
-    /// Whether the disc is at the wall that it flies towards.
+    /// Whether the disc is in the band of the wall that it flies towards, or beyond.
     CARROM_DEVICE bool touches(Real x, Real v) const {
         return (v < 0 && x <= low_ + band_) || (v > 0 && x >= high_ - band_);
     }
@@ -50,7 +50,7 @@ public:
         return never;
     }
 
-    /// Event-driven method: the time that the disc takes to the wall ahead, or `never`.
+    /// Event-driven method: the time until the disc reaches the wall ahead, or `never`.
     CARROM_DEVICE Real delay(Real x, Real v) const {
         if (v == 0) return never;
         const Real delay = ((v < 0 ? low_ : high_) - x) / v;

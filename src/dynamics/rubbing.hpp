@@ -3,14 +3,14 @@
 // and Coulomb's friction of the touching surfaces, as between rough discs (law.hpp), with a body
 // that cannot move.
 //
-// With the outward normal n of the body and t = (-n_y, n_x), the surface of a disc with the spin W
-// moves along the wall's surface with the velocity h = (v - u) . t - W r. If the surfaces stick, h
-// becomes -e_t h: the velocity along t changes by s = -(1 + e_t) h q / (1 + q) and the spin by -s /
-// (q r), where q m r^2 is the moment of inertia. For a disc that does not turn q is infinite. The
-// velocity along t changes by at most `friction` times the change of the normal velocity.
+// With the outward normal n of the body, t = (-n_y, n_x) and the velocity u of its surface, a disc
+// with the spin W slides along the surface with the velocity h = (v - u) . t - W r. If surfaces
+// stick, h becomes -e_t h: the velocity along t changes by s = -(1 + e_t) h q / (1 + q) and the
+// spin by -s / (q r), where q m r^2 is the moment of inertia. For a disc that does not turn q is
+// infinite. The velocity along t changes by at most `friction` times the change of normal velocity.
 //
-// Rubbing does not depend on the contact time, because it ends no series of collisions, and
-// because a disc that rests on a floor should roll there.
+// Guarded contacts rub, too (contact_guard.hpp), because rubbing causes no endless series of
+// collisions, and because a disc that rests on a floor should roll there.
 #pragma once
 
 #include <cmath>

@@ -37,12 +37,12 @@ concept Space = std::is_trivially_copyable_v<S> &&
                     { S::is_periodic } -> std::convertible_to<bool>; // whether discs have images
                     { S::has_moving_images } -> std::convertible_to<bool>; // images have velocities
                     changing.begin_interval(n); // then times are relative to micro-step n
-                    // see(p, q, dx, dy, time): the position of q relative to p at `time`, when
-                    // (dx, dy) is the difference of their stored positions.
+                    // see(p, q, dx, dy, time): position and velocity of q relative to p at `time`,
+                    // when (dx, dy) is the difference of their stored positions.
                     { space.see(p, p, d, d, d) } -> std::same_as<Encounter<double>>;
                     { space.is_periodic_along(axis) } -> std::same_as<bool>;
                     { space.has_sides() } -> std::same_as<bool>;
-                    // The rounding error of positions far from the box.
+                    // Half the largest gap in a contact, due to the rounding of positions.
                     { space.slack() } -> std::convertible_to<double>;
                     // Speeds that searches allow for: the disc's own speed, or the speed of its
                     // image in the box at a time.

@@ -41,7 +41,7 @@ std::shared_ptr<SpeciesTable::Table> SpeciesTable::table_of(std::span<const Spec
     table->ranges.push_back(
         {std::numeric_limits<DiscId>::max(),
          species.empty() ? SizeAndMass{radius, 1} : table->ranges.back().values});
-    // The last range needs no end
+    // The last species uses the range without an end.
     if (!species.empty()) table->ranges.erase(table->ranges.end() - 2);
     if (species.size() > few_species || radii_change) table->spread(species, end, radii_change);
     return table;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Species: the radius and the mass of each disc. Only swap moves change them in a run.
+// Species: the mass and, before growth, the radius of each disc. In a run only swaps change them.
 //
 // Species come in the order of ids, so a disc's species follows from its id and takes no memory in
 // arrays, messages and checkpoints. Few species are found by comparing ids. Many species

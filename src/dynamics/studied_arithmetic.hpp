@@ -56,7 +56,7 @@ public:
 
     static double rounded(double number) { return static_cast<Real>(number); }
     static Box rounded(const Box& box) { return {rounded(box.x), rounded(box.y)}; }
-    /// Rounds a state to its precision.
+    /// Rounds the numbers of a state to the precision `Number`.
     static void round(DiscState& disc) {
         for (double* number : {&disc.x, &disc.y, &disc.vx, &disc.vy, &disc.tau})
             *number = rounded(*number);
@@ -82,8 +82,8 @@ public:
         return naive_contact_delay(met.ex, met.ey, met.wx, met.wy, sigma,
                                    formula_ == ContactFormula::naive_contracted);
     }
-    /// Whether the centres of the discs, advanced to that time in double precision, are at most
-    /// `farthest_` apart.
+    /// Whether the centres of the discs, advanced to the contact's time in double precision, are at
+    /// most `farthest_` apart.
     CARROM_DEVICE bool counts(const DiscState& p, const DiscState& q,
                               const PairContact<Real>& found) const {
         const double time = static_cast<double>(found.base) + static_cast<double>(found.delay);
@@ -94,8 +94,8 @@ public:
 private:
     /// The largest error, in diameters, of a contact that a formula with cancellation finds. At a
     /// distance of d diameters a rounding u changes B^2 - 4 A C by some u (2 d v)^2. So a grazing
-    /// contact moves along the flight by the root of this change over 2 v, and its distance changes
-    /// by the square. If this is half a diameter or more, the contact counts as lost.
+    /// contact moves along the flight by the root of this change over 2 v, s diameters, and its
+    /// distance by some s^2 diameters. From half a diameter on, the contact counts as lost.
     static double misplacement(const Box& box, double radius) {
         const double longest = std::numbers::sqrt2 * rounded(box).longest() / (2 * rounded(radius));
         return std::min(0.5, 2.5 * std::numeric_limits<Real>::epsilon() * longest * longest);

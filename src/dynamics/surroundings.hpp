@@ -6,7 +6,7 @@
 //   SurroundingsOfEffects    sides of any kind (boundaries.hpp), fixed bodies (fixed_bodies.hpp), a
 //                            frame that falls (falling_frame.hpp)
 //
-// These functions of sides are for the event-driven method. Walls within a micro-step of the
+// Most functions of sides are for the event-driven method. Walls within a micro-step of the
 // time-stepped method are in time_stepped/step_walls.hpp.
 #pragma once
 

@@ -29,7 +29,7 @@ struct Turn {
 /// A disc's flight relative to a wall, at the time s after the disc's time.
 struct SwayingFlight {
     double distance, speed, pull;
-    double sine, cosine; ///< parts of the changing acceleration, in units of acceleration
+    double sine, cosine; ///< amplitude times sine and cosine of the phase at s = 0
     double rate;         ///< angular frequency, 2 pi / period
 
     ValueAndSlope distance_at(double s) const {

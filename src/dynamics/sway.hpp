@@ -25,7 +25,7 @@ namespace carrom {
 
 struct Acceleration;
 
-/// The motion of a frame from rest along one axis, due to the part that changes.
+/// The motion of a frame from rest along one axis, due to the changing part of the acceleration.
 struct Swayed {
     double way = 0, speed = 0, acceleration = 0;
 };
@@ -37,8 +37,8 @@ public:
 
     bool is_on() const { return rate_ != 0; }
     bool acts_along(std::size_t axis) const { return amplitudes_[axis] != 0; }
-    /// Starts an interval: the last sync is at `time` of the scene, and other times are relative to
-    /// it.
+    /// Starts an interval: the last sync is at `time` since the scene's start, and all other times
+    /// are relative to it.
     void begin_interval(double time);
     /// The motion since the sync; `time` is at most about an eighth of a period.
     Swayed at(std::size_t axis, double time) const;
@@ -48,7 +48,7 @@ public:
     double contact_delay(std::size_t axis, double sign, double distance, double rate, double pull,
                          double time) const;
 
-    /// The motion between two times since the scene's start.
+    /// The motion until `to` of a frame at rest at `from`; both are times since the scene's start.
     static std::array<Swayed, 2> between(const Acceleration& acceleration, double from, double to);
 
 private:

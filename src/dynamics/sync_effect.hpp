@@ -2,8 +2,8 @@
 // An effect that acts at syncs. Between syncs discs fly and collide as without it.
 //
 // At a sync all states are at one time and in the box's own coordinates. The effect on a disc may
-// depend on that disc's state, on exact sums over all discs, and on random numbers, which are
-// functions of the seed, the disc and the count of syncs. So any number of ranks and threads gives
+// depend on that disc's state, on discs near it, on exact sums over all discs, and on random
+// numbers (functions of seed, disc and count of syncs). So any number of ranks and threads gives
 // the same bits, and a restart needs only the count and the values that an effect keeps (`kept`).
 //
 // The engine calls each effect once a sync, never for a pair. Scenes without such an effect have
@@ -31,9 +31,9 @@ namespace carrom {
 struct WallImpulse {
     static constexpr std::size_t n_sides = 4;
 
-    std::size_t side = 0;              ///< side; numbers from `n_sides` on are rows of fixed bodies
-    double normal = 0;                 ///< impulse away from the side
-    double along = 0;                  ///< impulse along the side, in the direction of its axis
+    std::size_t side = 0;              ///< number of the side, or `n_sides` plus a fixed body's row
+    double normal = 0;                 ///< impulse on discs, away from the side
+    double along = 0;                  ///< impulse on discs along the side, towards +x or +y
     double energy = 0;                 ///< change of the discs' kinetic energy
     double ix = 0, iy = 0, torque = 0; ///< as in WallEvent; only for fixed bodies
 };
@@ -55,7 +55,7 @@ struct SyncDiscs {
     std::span<DiscState> discs = {}; ///< includes departed discs, which effects do not change
     /// Spins in the order of `discs`; empty unless discs are rough
     std::span<double> spins = {};
-    std::span<double> directions = {}; ///< angles along the discs; empty unless discs are active
+    std::span<double> directions = {}; ///< angles in the order of `discs`; empty unless active
     /// Radii in the order of `discs`; empty unless discs exchange them
     std::span<double> radii = {};
     /// Number of syncs since the scene's start, this one included
@@ -74,11 +74,11 @@ struct SyncDiscs {
     std::function<double(double)> largest_over_ranks = {};
     /// Returns the bytes of all ranks, in the order of ranks, to every rank. **Collective.**
     std::function<std::vector<std::byte>(std::span<const std::byte>)> gather_over_ranks = {};
-    /// Records the impulse of a side of the box, per micro-step. One rank calls this for all ranks.
-    /// It is empty unless walls are measured.
+    /// Records the impulse of a side or a fixed body, per micro-step. One rank calls this for all
+    /// ranks. It is empty unless walls are measured.
     std::function<void(const WallImpulse&)> record_wall = {};
     /// Records the impulse between two discs, per micro-step. One rank calls this for all ranks. It
-    /// is empty unless stress is measured or pairs are followed.
+    /// is empty unless stress or pairs are measured.
     std::function<void(const PairImpulse&)> record_pair = {};
 
     /// Adds the terms of all discs in the box to `sums`, which must be 0. `term(i, parts)` adds the
@@ -135,18 +135,18 @@ public:
     virtual void stretch(std::int64_t n_syncs, const StretchRange& room) = 0;
 };
 
-/// A disc that has come in through an open side during the interval before a sync. Its place of
-/// entry is where discs depart.
+/// A disc that has come in through an open side during the interval before a sync. It enters at the
+/// line where discs depart.
 struct Arrival {
     std::size_t side = 0;
     DiscId first = 0, end = 0; ///< range of ids that the disc may have
-    double flown = 0;          ///< time since the disc arrived
-    double across = 0;         ///< place of arrival along the side, from 0 to 1 of the free length
-    bool has_low_wall = true, has_high_wall = true; ///< whether the side ends at walls
-    double inwards = 0, along = 0;                  ///< velocity of arrival, for a mass of 1
+    double flown = 0;          ///< time from the disc's arrival to the sync
+    double across = 0;         ///< place of arrival as a share of the free length of the side
+    bool has_low_wall = true, has_high_wall = true; ///< whether the side's ends are at walls
+    double inwards = 0, along = 0;                  ///< velocity at arrival, for a mass of 1
 };
 
-/// The numbers of arrivals that came in, and of those that did not.
+/// The numbers of arrivals that came in, and of arrivals that were not let in.
 struct ArrivalCounts {
     std::uint64_t in = 0;            ///< discs that came in
     std::uint64_t without_place = 0; ///< not let in, because a disc or a fixed body is there

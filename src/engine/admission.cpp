@@ -93,7 +93,7 @@ void place(Candidate& candidate, const Arrival& arrival, double mass, const Box&
     candidate.is_blocked_there = depth > length - radius;
 }
 
-/// For fixed bodies the test assumes that a disc comes in at a right angle to the side.
+/// Marks places that fixed bodies block, as if the disc came in at a right angle to the side.
 void block_by_fixed_bodies(Candidate& candidate, const Arrival& arrival,
                            const AdmissionGround& ground) {
     DiscState from = candidate.disc.state, to = candidate.there;

@@ -19,8 +19,8 @@
 
 namespace carrom {
 
-/// The box, the discs and the fixed bodies that decide where a disc can come in. All states are
-/// those of a sync, in the box's own coordinates.
+/// The data from which `admit` decides which discs come in, and where. All states are at the time
+/// of the sync, in the box's own coordinates.
 struct AdmissionGround {
     const Communicator& communicator;
     const Box& box;
@@ -28,9 +28,9 @@ struct AdmissionGround {
     double largest_radius;
     bool have_pairs; ///< if false, discs pass through each other and never block a place
     std::span<const DiscState> own, departed; ///< discs of this rank
-    const SideColumns& departed_columns;      ///< columns in the order of `departed`
-    /// Whether fixed bodies leave room for a disc that has flown from the first state straight to
-    /// the second one in this time.
+    const SideColumns& departed_columns;      ///< side columns of `departed`, in the same order
+    /// Whether no fixed body is at `from`, at `to` or in the way of a straight flight between them,
+    /// which takes `time` in micro-steps.
     std::function<bool(const DiscState& from, const DiscState& to, double time)> has_room;
 };
 
@@ -39,10 +39,10 @@ struct Admission {
     ArrivalCounts counts;
 };
 
-/// Each arrival gets the departed disc of the lowest id in its range that is still free. The
-/// arrival is left out if another disc or a fixed body is at its place of entry. If only the place
-/// to which the disc has flown is blocked, or the way there, the disc stays at its place of entry.
-/// **Collective.**
+/// Each arrival gets the departed disc with the lowest id in its range that no earlier arrival has.
+/// If another disc or a fixed body is at the place of entry, this disc does not come in. If only
+/// the place that it would have reached by the sync is blocked, or a fixed body is in between, it
+/// stays at the place of entry. **Collective.**
 Admission admit(std::span<const Arrival> arrivals, const AdmissionGround& ground);
 
 } // namespace carrom

@@ -15,10 +15,10 @@ struct Collision {
     /// `time` counts from the start of this micro-step; the scene's first one has the number 0
     std::int64_t micro_step = 0;
     double time = 0; ///< time in micro-steps
-    /// Position in a chain of collisions at the same time, in the event-driven method
+    /// Position in a chain of collisions at the same time; always 0 in the time-stepped method
     std::uint64_t generation = 0;
     DiscId p = 0, q = wall; ///< p is the lower id of a pair
-    double impulse = 0;     ///< the impulse on p, in mass times length per step
+    double impulse = 0;     ///< magnitude of the impulse on p, in mass times length per step
 };
 
 /// The numbers of box lengths by which a disc that has flown through periodic sides is brought

@@ -34,7 +34,8 @@ inline ContactFormula contact_formula_of(const SceneParameters& scene) {
     return scene.contraction ? ContactFormula::naive_contracted : ContactFormula::naive;
 }
 
-/// The dynamics with the scene's numbers, in a box whose sides an effect may have changed.
+/// The dynamics with the scene's parameters, converted to micro-steps, in a box whose sides an
+/// effect may have changed.
 template <class D> D dynamics_of(const SceneParameters& scene, const Box& box) {
     return D(box, scene.radius, per_micro_step(scene), contact_formula_of(scene));
 }

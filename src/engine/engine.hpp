@@ -33,11 +33,11 @@ namespace carrom {
 /// the halo, all sorted into cells.
 struct LocalView {
     Population population;
-    const CellGrid* grid = nullptr; ///< a grid whose reach covers pairs within a diameter
+    const CellGrid* grid = nullptr; ///< its reach is at least a diameter, and at least local_view's
     const Domains* domains = nullptr;
     double time = 0;   ///< time since the last sync
-    Frame frame;       ///< the coordinates are in this frame
-    Periods periods{}; ///< periods of a periodic box; positions are those of the discs' images
+    Frame frame;       ///< the frame in which the discs' coordinates are stored
+    Periods periods{}; ///< periods of a periodic box, by which images of discs are displaced
     double size = 1;   ///< the value of Engine::size
 };
 
@@ -50,7 +50,7 @@ public:
 
     /// See DiscSystem::advance_towards. **Collective.**
     virtual void advance_towards(std::int64_t last_step) = 0;
-    /// Fills in the totals that only the engine has: overlaps, rejected candidates, windows.
+    /// Fills in totals that only the engine has: overlaps, rejected candidates, energy lost.
     /// **Collective.**
     virtual void add_to(Totals& totals) = 0;
     /// Redistributes the discs in their present state, so that pairs within a diameter, or within
@@ -61,7 +61,7 @@ public:
 
     /// The GPU on which the discs are moved; its name is empty if there is none.
     virtual DeviceFacts device() const { return {}; }
-    /// Extra bytes a disc where discs are clustered, compared with a homogeneous gas. Equal on all
+    /// Extra bytes per disc if discs are clustered, compared with a homogeneous gas. Equal on all
     /// ranks.
     virtual double bytes_for_crowds() const { return 0; }
     /// Counts of windows and blocks of all ranks. **Collective.**
@@ -71,11 +71,11 @@ public:
     virtual std::span<const DiscState> own() const = 0;
     virtual std::span<const DiscState> departed()
         const = 0; ///< the discs of this rank that have left the box; own() does not contain them
-    virtual SideSpans side_columns() const { return {}; } ///< columns of the discs in `own()`
+    virtual SideSpans side_columns() const { return {}; } ///< values for the discs in `own()`
     /// Numbers outside of the 64-byte states (side_columns.hpp), for the discs in `departed()`.
     virtual SideSpans departed_columns() const { return {}; }
     virtual const SpeciesTable& species_table() const = 0;
-    /// The factor by which an effect at syncs has changed all radii of the table.
+    /// The factor by which an effect at syncs has changed all radii of `species_table()`.
     virtual double size() const { return 1; }
     /// The sides of the box, which an effect may have changed. Walls that move do not affect them.
     virtual Box box() const = 0;
@@ -94,7 +94,7 @@ public:
     /// See DiscSystem::log_to. Engines append the collisions that they carry out while `log_` is
     /// not null.
     void log_to(std::vector<Collision>* log) { log_ = log; }
-    /// Followers get this rank's collisions of pairs, or with sides and fixed bodies, in any order.
+    /// Followers of this rank's collisions: of two discs, and of discs with sides and fixed bodies.
     Followers<PairEvent>& followers_of_pairs() { return pair_followers_; }
     Followers<WallEvent>& followers_of_walls() { return wall_followers_; }
     /// From now on the energy that moving images give to own discs is added to `work`, in
@@ -104,16 +104,16 @@ public:
     /// time of the sync. It must not change states. An empty function ends this.
     void call_before_effects(std::function<void()> act) { before_effects_ = std::move(act); }
     /// From now on the contributions of own discs to the time integral of stress are added to
-    /// this rank's `sums`; null ends this. The owner of a pair's first disc adds its collisions.
+    /// this rank's `sums`; null ends this. The owner of a pair's first disc adds the collision.
     void add_stress_to(StressSums* sums) {
         stress_ = sums;
         if (!sums) return;
         no_stress_ = *sums;
         no_stress_.clear();
     }
-    /// Starts sums of energy lost in collisions; `bound` exceeds each. Call this before any step.
+    /// Starts sums of energy lost in collisions; `bound` exceeds each sum. Call it before any step.
     void begin_loss_sums(double bound) { losses_ = no_losses_ = LossSums(bound); }
-    /// Integrals over flights that the sums do not contain yet.
+    /// Coefficients of the integral over flights that the sums of stress do not contain yet.
     virtual FlightIntegral flight_integral() const { return {}; }
     /// From now on a sync in a periodic box appends to `crossings` the numbers of box lengths by
     /// which own discs are brought back, until `forget_crossings_in` is called.

@@ -21,23 +21,11 @@ namespace carrom {
 
 namespace {
 
-/// The usual depth of a halo, in mean distances of discs: one reach of the time-stepped method, or
-/// three reaches of the event-driven method, whose windows are longer
-/// (tests/performance/rank_loads.cpp).
+/// Settings for ranks that share a strip. The first one is the usual depth of a halo, in mean
+/// distances between discs: one reach of the time-stepped method, or three reaches of the
+/// event-driven method, whose windows are longer (tests/performance/rank_loads.cpp).
 GroupChoice group_choice(Method method, const Tuning& tuning) {
     return {method == Method::time_stepped ? 1.2 : 10, tuning.ranks_across};
-}
-
-/// Includes the scene's columns that no collision changes, because they move with the discs.
-template <class Dynamics>
-SideColumns stored_columns(const Dynamics& dynamics, const SceneParameters& scene,
-                           StoredState& state) {
-    SideColumnSet wanted = side_columns_of(dynamics).present();
-    side_columns_of(scene).for_each([&](SideColumn column) { wanted.add(column); });
-    SideColumns columns;
-    wanted.for_each(
-        [&](SideColumn column) { columns.add(column, std::move(state.columns[column])); });
-    return columns;
 }
 
 } // namespace
@@ -66,7 +54,7 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
     largest_speed_ = std::sqrt(squared_speed_of_own(time_));
 }
 
-/// Number of micro-steps between two syncs at which flights are added to the sums of stress.
+/// Flights must be added to the sums of stress at each sync, if syncs change velocities.
 template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() const {
     const bool sync_changes_velocities = Dynamics::has_moving_images || dynamics_.has_own_frame() ||
                                          sync_action_.has_effects();
@@ -77,7 +65,7 @@ template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() con
 template <class Dynamics> void EngineBase<Dynamics>::distribute() {
     set_departed_aside();
     discs_.rebalance(time_, tuning_.rebalance_above, {discs_.n_own(), 0});
-    redistribute_now(0, Covered::domain); // cells show where discs are clustered
+    redistribute_now(0, Covered::domain); // these cells show where discs are clustered
 }
 
 template <class Dynamics> void EngineBase<Dynamics>::set_departed_aside() {
@@ -149,7 +137,7 @@ void EngineBase<Dynamics>::refuse_long_flights([[maybe_unused]] double speed) co
     }
 }
 
-/// Stops early, at the end of the step of the next sync, because a stop costs nothing there.
+/// Stops at the latest at the end of the step with the next sync, because that stop costs no time.
 template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_t last_step) {
     const std::int64_t step_after_sync = (last_sync() + sync_every_ + micro_steps_ - 1) /
                                          micro_steps_;
@@ -240,7 +228,7 @@ template <class Dynamics> double EngineBase<Dynamics>::restart_states() {
 /// Returns the largest speed of own discs after the effects.
 template <class Dynamics> double EngineBase<Dynamics>::let_effects_act() {
     if (this->before_effects_) {
-        const double end = std::exchange(time_, 0); // states are at the sync, which is time 0
+        const double end = std::exchange(time_, 0); // all states are at time 0 already
         this->before_effects_();
         time_ = end;
     }

@@ -64,28 +64,28 @@ protected:
     /// Runs windows until `n_micro_done_` is `target`, which is not beyond the next
     /// sync. **Collective.**
     virtual void advance_to(std::int64_t target) = 0;
-    /// Sends each own disc to the rank whose domain holds it now. **Collective.**
+    /// Sends each own disc to the rank whose domain contains its present position. **Collective.**
     virtual void migrate() = 0;
     /// Called after a sync at `time_`, before times start again from 0. No own disc is faster than
     /// `largest_speed`. **Collective.**
     virtual void finish_sync(double largest_speed) = 0;
-    /// Called if velocities have changed or discs have come in after finish_sync and before
+    /// Called after finish_sync if discs may have come in, and after effects that act before
     /// flights. No own disc is faster than `largest_speed`. **Collective.**
     virtual void take_speed(double largest_speed) = 0;
     /// Ends a window that extends beyond the present stop. **Collective.**
     virtual void leave_window() { is_in_window_ = false; }
-    /// Advances all own discs to `time_`, sets their times to 0, and returns the largest speed.
+    /// Advances own discs to `time_`, which becomes time 0. Returns this rank's largest speed.
     virtual double restart_states();
     /// Brings `discs_` up to date, in engines that keep their states elsewhere.
     virtual void bring_states() const {}
     /// Frees the memory that is kept from one window to the next.
     virtual void drop_scratch() { discs_.drop_grid(); }
 
-    /// Cuts the box anew and redistributes all discs, wherever they are. **Collective.**
+    /// Cuts the box into new domains and redistributes discs from any position. **Collective.**
     void distribute();
-    /// The time until which windows may extend if the run stops at `target`: `target` or later.
-    /// Without later times, runs that are inspected at each step would have a window for each step,
-    /// which costs as much as a long one.
+    /// The micro-step until which windows may extend if the run stops at `target`: `target` or
+    /// later. If windows ended at all stops, runs that are inspected at each step would have a
+    /// window for each step, which costs nearly as much as a long window.
     std::int64_t horizon_of(std::int64_t target) const;
     /// Stops are probable at multiples of this number of micro-steps after the present stop.
     std::int64_t stop_interval() const { return stop_interval_; }
@@ -93,8 +93,8 @@ protected:
     /// that contains its discs. If discs are clustered, cells of the whole region would hold
     /// hundreds of discs each.
     enum class Covered { domain, discs };
-    /// Redistributes discs, halo and cells at the present time, for partners within a diameter or
-    /// `least_reach`. No state changes. **Collective.**
+    /// Redistributes discs, halo and cells at the present time, for pairs within a diameter, or
+    /// within `least_reach` if that is more. No state changes. **Collective.**
     void redistribute_now(double least_reach = 0, Covered covered = Covered::discs);
     /// Removes departed discs from the arrays of own discs. **Collective.**
     void set_departed_aside();
@@ -103,8 +103,8 @@ protected:
     /// counts allow. `speed` is the largest speed, equal on all ranks. **Collective.**
     void refuse_long_flights(double speed) const;
 
-    /// At a sync: records the flights since the last one. Returns true if all recorded flights must
-    /// be added to the sums of stress now.
+    /// At a sync: adds the time since the last sync to `flown_before_`. If flights must be added to
+    /// the sums of stress at this sync, sets it to 0 instead and returns true.
     bool begin_flights();
     /// The square of the largest speed of own discs at `time`.
     double squared_speed_of_own(double time) const;
@@ -115,10 +115,10 @@ protected:
     }
 
     Population population() const { return discs_.population(); }
-    /// Positions of the walls now, in the coordinates of states.
+    /// Positions of the box's sides now, in the coordinates of stored states.
     Extent extent() const;
     std::int64_t last_sync() const { return n_micro_done_ / sync_every_ * sync_every_; }
-    /// The largest rounding error of a disc's position.
+    /// Upper bound of the rounding error of a position, plus half the largest gap in a contact.
     double place_margin() const {
         return 64 * 0x1p-53 * dynamics_.box().longest() + dynamics_.slack();
     }
@@ -131,14 +131,14 @@ protected:
     StripDiscs discs_;
 
     std::int64_t n_micro_done_ = 0, n_windows_ = 0;
-    double time_ = 0;           ///< time on the clock, since the last sync
+    double time_ = 0;           ///< time since the last sync, on the clock of the dynamics
     bool is_in_window_ = false; ///< the run has stopped inside a window that is not finished
     /// Time of the flights before the last sync that are not yet added to the stress
     double flown_before_ = 0;
-    double redistributed_time_ = 0; ///< time of the last migration
+    double redistributed_time_ = 0; ///< time of the last migration, relative to the last sync
     double largest_speed_ = 0;      ///< upper bound of the speed of own discs
-    double travel_speed_ = 0; ///< bound of the speed since the last migration; equal on all ranks
-    RankWork rank_work_;      ///< work since the last comparison of ranks
+    double travel_speed_ = 0; ///< bound of all speeds since the last migration; equal on all ranks
+    RankWork rank_work_;      ///< this rank's work since the loads of ranks were last compared
     PhaseClock phases_;
 
 private:
@@ -166,7 +166,7 @@ private:
     /// between syncs, because a redistribution would make the rest of a window useless.
     bool windows_pass_stops_ = false;
     bool is_redistributed_ = true; ///< whether discs were redistributed since the last stop
-    /// The largest divisor of all distances between stops since the last sync; 0 at first
+    /// Greatest common divisor of the micro-steps between stops since the last sync; 0 at first
     std::int64_t stop_interval_ = 0;
 };
 

@@ -23,7 +23,7 @@ public:
 };
 
 /// Events that wait for their followers. Memory is kept and overwritten, because a vector would
-/// clear it for each event, which takes a third of the time of recording the event.
+/// initialize it for each event, which takes a third of the time of recording the event.
 template <class Event> class NotedEvents {
 public:
     bool has_room() const { return n_ < n_rooms_; }
@@ -39,7 +39,7 @@ public:
 
 private:
     std::vector<Event> room_;
-    std::size_t n_ = 0, n_rooms_ = 0; ///< kept because computing the vector's size takes a division
+    std::size_t n_ = 0, n_rooms_ = 0; ///< `n_rooms_` is kept because size() needs a division
 };
 
 /// The followers of events of one kind. Followers get events soon after they happen, so that memory
@@ -53,7 +53,7 @@ public:
     void give(std::span<const Event> events) const {
         for (EventFollower<Event>* follower : all_) follower->take(events);
     }
-    /// Memory for an event that waits for `hand_over`, for engines that find events one by one. All
+    /// Memory for one more event, which followers receive at the next call of `hand_over`. All
     /// members must be written.
     Event& note() {
         if (!noted_.has_room()) noted_.grow();

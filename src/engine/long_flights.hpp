@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How far discs fly from sync to sync in a box with periodic sides. Images are counted in 15 bits
-// (core/image.hpp), so a scene in which discs fly further is an error at its start, and a run ends
-// if discs later become too fast.
+// (core/image.hpp). So a scene whose discs fly through more boxes than that is an error at its
+// start, and a run ends if its discs become too fast later.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace carrom {
 
-/// The largest number of box lengths that a disc can travel in `time` without a wrap, at a speed up
-/// to `speed`, and up to `up` along y. Rows of boxes may move (shear).
+/// The largest number of box lengths that a disc can travel along an axis in `time`, if its speed
+/// is at most `speed`, and at most `up` along y. Rows of images may slide along x (shear).
 inline double most_lengths(const Periods& periods, double speed, double up, double time) {
     const double rows = periods.y == 0 ? 0 : up * time / periods.y;
     const double along_x = speed + (rows + 1) * std::fabs(periods.speed);

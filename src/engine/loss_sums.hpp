@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy that collisions have taken, and the energy that guarded collisions would have taken,
-// in sums that do not depend on the order of collisions.
+// The energy that restitution has taken, and the energy that it would have taken in collisions that
+// were made elastic (dynamics/contact_guard.hpp), in sums that no order of collisions affects.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct LossSums {
     }
 
     ExactSum taken, spared;
-    std::uint64_t n_guarded = 0; ///< number of guarded collisions, without contacts at rest
+    std::uint64_t n_guarded = 0; ///< collisions made elastic, except contacts at rest
 };
 
 /// Fills in the losses of all ranks. **Collective.**

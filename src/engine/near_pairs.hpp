@@ -45,7 +45,7 @@ template <class Visit> void visit_near_pairs(const CellGrid& grid, const Visit& 
 }
 
 /// Calls `visit(index, id of the other, distance)` for each own disc and each other disc or image
-/// within `reach`. Distances are in units of `unit`; states are at time 0.
+/// within `reach`. Distances and `reach` are in units of `unit`; states are at time 0.
 template <class Visit>
 void visit_pairs_within(const CellGrid& grid, const Population& all, const Periods& periods,
                         double unit, double reach, const Visit& visit) {

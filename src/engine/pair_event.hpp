@@ -3,7 +3,7 @@
 // the velocities afterwards. Engines record it only if a measurement follows pairs.
 //
 // Lasting contacts give such events at syncs, with the impulses until the next sync. All numbers
-// are in the box's own frame at the time of the collision, so they include falls and drag.
+// are in the box's own frame at the time of the collision, so velocities include gravity and drag.
 // Positions are not brought back into a periodic box.
 #pragma once
 
@@ -38,8 +38,8 @@ struct PairEvent {
 /// Receives each pair's event on the rank that owns the first disc.
 using PairFollower = EventFollower<PairEvent>;
 
-/// Converts an event from the dynamics' own frame and clock to the box. It is a separate function
-/// because most dynamics do not need it.
+/// Converts an event from the frame and clock of the dynamics to the box's frame and micro-steps.
+/// It is not inlined, because most dynamics do not need it.
 template <class Dynamics>
 [[gnu::noinline]] void show_in_box(PairEvent& event, const Dynamics& dynamics, double time,
                                    double unit) {
@@ -52,10 +52,10 @@ template <class Dynamics>
     for (double* v : {&event.p_vy, &event.q_vy}) *v = *v * frame.slowing + frame.vy * unit;
 }
 
-/// `p` and `q` are stored states after the collision at `time`, on the dynamics' own clock. `place`
-/// is the first disc at that time, before or after the collision, and `to` is the separation at
-/// that time. `unit` converts stored velocities to velocities per step. The function writes into
-/// `event` directly, which saves a copy.
+/// Writes a collision at `time`, on the clock of the dynamics, into `event`. `p` and `q` are the
+/// stored states after it. `place` is the first disc's state before or after it, from which its
+/// position follows, and `to` is the separation at `time`. `unit` converts stored velocities to
+/// velocities per step.
 template <class Dynamics>
 [[gnu::always_inline]] inline void record_in(PairEvent& event, const Dynamics& dynamics,
                                              const DiscState& place, const Separation& to,

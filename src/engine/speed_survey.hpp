@@ -10,7 +10,7 @@
 
 namespace carrom {
 
-/// `largest_speed` > 0 is the largest speed on all ranks. **Collective.**
+/// Counts discs of all ranks by speed; the largest one is `largest_speed` > 0. **Collective.**
 SpeedSpread survey_speeds(std::span<const DiscState> own, double largest_speed,
                           const Communicator& communicator, int n_threads);
 

@@ -171,7 +171,7 @@ private:
 std::array<std::uint64_t, 3> count_touching(const PairsAt& pairs, const Population& population,
                                             const CellGrid& grid, double tolerance) {
     std::array<std::uint64_t, 3> counts{};
-    // 2 also stands for more than two
+    // number of partners that touch each disc; 2 means two or more
     std::vector<std::uint8_t> n_partners(population.discs.size(), 0);
     visit_near_pairs(grid, [&](LocalIndex a, LocalIndex b) {
         if (!(std::fabs(pairs.overlap(a, b)) <= tolerance)) return;
@@ -189,7 +189,7 @@ double largest_size(const Population& population, const CellGrid& grid, const To
                     const Communicator& communicator, int n_threads) {
     Touching of_scene = touching;
     of_scene.size = 1;
-    double least = std::numeric_limits<double>::infinity(); // smallest ratio of squared distances
+    double least = std::numeric_limits<double>::infinity(); // smallest (distance / diameter)^2
     const int n_columns = grid.geometry().n_columns;
 #pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8) reduction(min : least)
     for (int column = 0; column < n_columns; ++column) {

@@ -16,7 +16,7 @@
 
 namespace carrom {
 
-/// Fills in the collision counts and the state hash; `columns` are in the order of the discs.
+/// Fills in the collision counts and the state hash; side `columns` are in the order of the discs.
 /// **Collective.**
 void measure_collisions(std::span<const DiscState> own, const SideSpans& columns,
                         const Communicator& communicator, int n_threads, Totals& totals);
@@ -40,12 +40,12 @@ std::span<const DiscState> discs_in_box(std::span<const DiscState> discs, const 
 struct EnergySetting {
     const Effects& effects;
     const Box& box;
-    double velocity_unit = 1; ///< converts stored velocities to the effects' unit of time
+    double velocity_unit = 1; ///< converts stored velocities to velocities per step
     double sync_interval = 0; ///< time between syncs, in micro-steps
 };
 
-/// Fills in all energies except the kinetic one. `shown` are discs in the box's own frame; `spins`
-/// are in the same order, or empty. **Collective.**
+/// Adds the listed `energies` of all ranks to the totals. `shown` are the own discs in the box's
+/// own frame; `spins` are in the same order, or empty. **Collective.**
 void measure_other_energies(std::span<const OtherEnergy> energies, std::span<const DiscState> shown,
                             std::span<const double> spins, const SpeciesTable& species_table,
                             const EnergySetting& setting, const Communicator& communicator,
@@ -55,7 +55,7 @@ void measure_other_energies(std::span<const OtherEnergy> energies, std::span<con
 struct Touching {
     double diameter = 0, tolerance = 0;
     const SpeciesTable* species_table = nullptr; ///< null if all diameters are equal
-    double size = 1;                             ///< factor by which the table's radii have grown
+    double size = 1;                             ///< factor by which the table's radii have changed
 
     double diameter_of(const DiscState& p, const DiscState& q) const {
         return species_table
@@ -73,11 +73,11 @@ Touching touching_of(const Dynamics& dynamics, double time, const Periods& perio
         return {diameter, dynamics.tolerance(), nullptr, size, periods};
 }
 
-/// Fills in the pairs that overlap at `time`, each counted once, the deepest overlap, the pairs
-/// that touch, and the discs that touch several others. A touching pair counts as sliding if
-/// (d.w)^2 <= 4 tolerance sigma w.w, where d and w are separation and relative velocity: the
-/// distance of closest approach is then a diameter, to within the tolerance. The grid contains the
-/// population at that time, for partners within a diameter and the tolerance. **Collective.**
+/// Fills in the number of pairs that overlap at `time`, the deepest overlap, the numbers of pairs
+/// that touch and that slide, and the number of discs that touch several others. A touching pair
+/// slides if (d.w)^2 <= 4 tolerance sigma w.w, with separation d, relative velocity w and diameter
+/// sigma: the closest approach is then a diameter, to within a few tolerances. The grid has the
+/// discs at `time`, and its reach is a diameter plus the tolerance or more. **Collective.**
 void measure_overlaps(const Population& population, const CellGrid& grid, double time,
                       const Touching& touching, const Communicator& communicator, int n_threads,
                       Totals& totals);

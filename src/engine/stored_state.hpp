@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/disc_state.hpp"
 #include "core/side_columns.hpp"
+#include "scene/scene_parameters.hpp"
 
 namespace carrom {
 
@@ -15,9 +17,21 @@ namespace carrom {
 struct StoredState {
     DiscStates discs;
     std::int64_t micro_steps_done = 0;
-    SideColumns columns{}; ///< numbers in the order of the discs; numbers left out are 0
+    SideColumns columns{}; ///< values in the order of the discs; columns left out are 0
     /// Values that effects keep from one sync to the next (SyncEffect::kept); equal on all ranks.
     std::vector<std::int64_t> kept_by_effects{};
 };
+
+/// The side columns that move with the discs, including those that no collision changes.
+template <class Dynamics>
+SideColumns stored_columns(const Dynamics& dynamics, const SceneParameters& scene,
+                           StoredState& state) {
+    SideColumnSet wanted = side_columns_of(dynamics).present();
+    side_columns_of(scene).for_each([&](SideColumn column) { wanted.add(column); });
+    SideColumns columns;
+    wanted.for_each(
+        [&](SideColumn column) { columns.add(column, std::move(state.columns[column])); });
+    return columns;
+}
 
 } // namespace carrom

@@ -30,7 +30,7 @@ void StressSums::add_flight(double mass, const DiscState& disc, const FlightInte
 
 /// The sums are the same as if add_impulse were called for each term.
 void StressTerms::add_to(StressSums& sum) {
-    const double from = unit_shift / sum.xx.scale(), // all three sums have one bound
+    const double from = unit_shift / sum.xx.scale(), // all three sums have the same bound
         from_twice = 2 * from;
     std::uint64_t xx = 0, xy = 0, yy = 0, changed = 0;
 #pragma GCC unroll 4
@@ -44,7 +44,7 @@ void StressTerms::add_to(StressSums& sum) {
         changed |= (term_xx ^ bits_of(from)) | (term_xy ^ bits_of(from_twice)) |
                    (term_yy ^ bits_of(from));
     }
-    // the term changed the exponent, so it is too large for this sum
+    // if a term has changed the exponent, it is too large for this sum
     const bool are_large = changed >> 52 != 0;
     if (are_large || !std::isnormal(from)) {
         add_each(sum);

@@ -48,7 +48,7 @@ struct StressSums {
     void add_flight(double mass, const DiscState& disc, const FlightIntegral& integral);
 
     ExactSum xx, xy, yy;
-    ExactSum energy; ///< the integral of the sum of m v^2
+    ExactSum energy; ///< the time integral of the sum of m v^2
 };
 
 // Terms are rounded to whole units. After a number of less than 2^51 units is added to
@@ -92,7 +92,7 @@ CARROM_DEVICE void add_flight_to(Terms& terms, Sums& sums, double mass, const Di
     if (integral.more_y != 0) terms.add(0, -mass * integral.more_y, {0, integral.more_y}, sums);
 }
 
-/// Terms that are collected and added to sums many at a time, which takes a third of the work.
+/// Collects terms and adds many at a time to sums, in a third of the time of single additions.
 class StressTerms {
 public:
     /// Records a collision: a disc gets the impulse (ix, iy) from another one at the separation
@@ -121,10 +121,10 @@ private:
     std::size_t n_ = 0;
 };
 
-/// The stress of a collision of a pair. It is constructed before the collision. The integral of m
-/// v_a v_b changes by the weight of the time times -(i_a u_b + u_a i_b) / 2, where i is the impulse
-/// on p and u is the sum of the relative velocities before and after. This is an impulse times a
-/// distance, too, with u in place of the distance, so both parts are one term.
+/// The stress of a collision of a pair. It is constructed before the collision, which changes the
+/// sum of m v_a v_b by -(i_a u_b + u_a i_b) / 2: i is the impulse on p, and u the sum of the
+/// relative velocities before and after. Whole flights are added later with the last velocities, so
+/// this change times the time flown is subtracted here, in one term with impulse times distance.
 template <class Dynamics> class PairStress {
 public:
     CARROM_DEVICE PairStress(const DiscState& p, const DiscState& q) : vx_(p.vx), vy_(p.vy) {
@@ -142,7 +142,7 @@ public:
                                                        const DiscState& q, const Separation& to,
                                                        double time, double flown) const {
         const double gained_x = p.vx - vx_, gained_y = p.vy - vy_;
-        // With equal masses q loses what p gains, so u / 2 follows from the velocities afterwards.
+        // With equal masses q loses the velocity that p gains, so u / 2 follows from the new ones.
         double half_ux = (q.vx - p.vx) + gained_x, half_uy = (q.vy - p.vy) + gained_y;
         if constexpr (Dynamics::has_species) {
             half_ux = 0.5 * (wx_ + (q.vx - p.vx));
@@ -164,8 +164,8 @@ private:
     [[no_unique_address]] Relative wx_, wy_; ///< relative velocity before the collision
 };
 
-/// The stress of a collision of one disc with a wall or a fixed body. It is constructed before the
-/// collision, and counts as a pair whose other disc does not move.
+/// Changes the integral over flights by a collision of one disc with a wall or a fixed body, which
+/// counts as a second disc at rest. It is constructed before the collision.
 template <class Dynamics> class WallStress {
 public:
     CARROM_DEVICE explicit WallStress(const DiscState& disc) : vx_(disc.vx), vy_(disc.vy) {}

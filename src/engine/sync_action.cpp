@@ -150,8 +150,8 @@ void SyncAction::follow(SyncDiscs& at, const SyncNotes& notes) const {
     };
 }
 
-/// Followers take the velocity after an event minus half its change as the mean velocity. So half
-/// of the change is added here to the mean velocity during the sync.
+/// Followers compute the mean velocity in an event as the velocity afterwards minus half its
+/// change. `pair` already has mean velocities, so half of the change is added to them here.
 PairEvent SyncAction::event_of(const PairImpulse& pair, std::int64_t micro_step) const {
     const double p_share = 0.5 / species_.of(pair.p).mass, q_share = 0.5 / species_.of(pair.q).mass;
     PairEvent event;

@@ -10,19 +10,19 @@ namespace carrom {
 /// Settings that are not given are chosen during the run.
 struct Tuning {
     int threads = 1;
-    /// A rank with fewer discs for each thread uses fewer threads
+    /// Least number of discs per thread; with fewer, a thread costs more time than it saves
     std::uint64_t discs_per_thread = 2000;
     std::optional<double>
         window; ///< micro-steps per window; below 1 a micro-step is divided into parts
     std::optional<double> cell_width;  ///< width of cells relative to the window's reach
     std::optional<double> usual_speed; ///< relative to the largest speed; cells allow for this
                                        ///< speed if a micro-step is divided
-    std::optional<int> ranks_across;   ///< ranks that share a strip and cut it across
+    std::optional<int> ranks_across;   ///< number of ranks that share a strip and cut it across
     /// Syncs between two changes of the cuts; 0 never changes the first cuts
     std::int64_t rebalance_every = 1;
     /// Tolerated ratio of the largest to the mean load; 0 changes the cuts every time
     double rebalance_above = 1.05;
-    bool ends_jams = true; ///< false for repeated steps, which are known to end without a jam
+    bool ends_jams = true; ///< whether a jam ends the run; not for repeated steps, which cannot jam
 };
 
 } // namespace carrom

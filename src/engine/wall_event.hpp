@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A collision of a disc with a side of the box or a fixed body, and the impulse and energy that the
 // disc gained. Engines record it only if a measurement follows walls. Lasting contacts give such
-// events at syncs, one event for all discs that press a side or a body.
+// events at syncs, one event for all discs that press on a side or a body.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +14,17 @@
 
 namespace carrom {
 
-/// Impulses and energies are per step and in the box's own frame; sides are in the order of
+/// Steps are the unit of time, and all numbers are in the box's own frame. Sides are numbered as in
 /// `boundary_names`.
 struct WallEvent {
     std::uint8_t side = 0;
     double normal = 0; ///< impulse on the disc normal to the side, positive away from it
     double along = 0;  ///< impulse on the disc along the side, in the direction of the axis
-    double energy = 0; ///< kinetic energy of the disc's motion that the side has added
-    /// Whether the impulse is that of a lasting contact until the next sync, not of a collision
+    double energy = 0; ///< energy of translation that the disc has gained
+    /// Whether this is a lasting contact with its impulse until the next sync, not a collision
     bool is_lasting = false;
     // For a fixed body, which has no side:
-    std::uint32_t body = no_body; ///< its row (rows_of in dynamics/container.hpp)
+    std::uint32_t body = no_body; ///< number of the body's row in rows_of (dynamics/container.hpp)
     double ix = 0, iy = 0;        ///< impulse on the disc
     double torque = 0;            ///< angular momentum that the body gains, about its centre
 
@@ -50,9 +50,9 @@ inline WallEvent body_event(const Frame& frame, const BodyTouch& touch, double m
     return event;
 }
 
-/// `after` is the disc's stored state and (dx, dy) the change of its stored velocity. `axis` is 0
-/// for left and right. If `is_corner`, the disc meets two sides at the same time, and each side
-/// gets the part normal to it.
+/// `after` is the disc's stored state after the collision, and (dx, dy) the change of its stored
+/// velocity. `axis` is 0 for the left and the right side. If `is_corner`, the disc meets two sides
+/// at the same time, and the event has only the part of the impulse that is normal to its side.
 inline WallEvent wall_event(const Frame& frame, std::size_t axis, double mass,
                             const DiscState& after, double dx, double dy, double unit,
                             bool is_corner) {

@@ -11,7 +11,7 @@ namespace {
 // Times in nanoseconds on one core, with discs in cache. If discs are in main memory, all times are
 // some 1.2 times as long.
 constexpr double disc = 30;     ///< time for each disc in a window of any length
-constexpr double partner = 1.3; ///< time for each disc in a square with edges of one reach
+constexpr double partner = 1.3; ///< time for each partner in a square with edges of one reach
 /// Time for a new prediction of a disc that was hit inside the window
 constexpr double hit = 85;
 /// Time for each partner of such a disc in a square with edges of one reach
@@ -38,7 +38,7 @@ double cost_per_micro_step(const WindowNeeds& needs, double duration) {
     return duration > 1 ? once + again * (1 - 1 / duration) : once;
 }
 
-/// The cost of a micro-step in parts, if some discs are faster than `usual_speed`.
+/// The cost of a micro-step in parts, if the share `share` of discs is faster than `usual_speed`.
 double cost_with_fast_discs(const WindowNeeds& needs, double duration, double usual_speed,
                             double share) {
     WindowNeeds usual = needs;
@@ -82,7 +82,7 @@ double reach_of(const WindowNeeds& needs, double duration) {
 }
 
 double reach_of(const WindowNeeds& needs, double duration, double speed) {
-    const double from_anchor = duration > 1 ? duration : duration / 2; // time from Window::anchor
+    const double from_anchor = duration > 1 ? duration : duration / 2; // longest time from anchor
     return (2 * needs.radius + 2 * speed * from_anchor) * (1 + 1e-6) +
            64 * 0x1p-53 * needs.box.longest();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the length of a window. Long windows share the cost of sorting discs into
-// cells, but need longer searches. The numbers that the choice uses are equal on all
-// ranks, so all ranks choose the same window. The choice affects the run's time, not its bits.
+// Chooses the length of a window of the time-stepped method. In a long window more micro-steps
+// share the cost of sorting discs into cells, but searches reach further. All ranks choose the same
+// window, because their numbers are equal. The choice affects the run's time, not its bits.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct SpeedSpread {
     double speed_of(std::size_t part) const {
         return largest * static_cast<double>(part) / n_parts;
     }
-    double mean() const; ///< mean speed, exact to largest / (2 n_parts)
+    double mean() const; ///< mean speed, with an error up to largest / (2 n_parts)
 };
 
 /// The arguments of the choice: lengths in the scene's unit, speeds in lengths per micro-step.
@@ -47,7 +47,7 @@ struct WindowNeeds {
     const SpeedSpread* spread = nullptr; ///< null if the distribution of speeds is not known
 };
 
-/// Estimates the collisions per disc and micro-step from the mean speed in a dilute gas.
+/// Estimates the collisions per disc and micro-step, as in a dilute gas with this mean speed.
 double guess_of_hits(const WindowNeeds& needs);
 
 /// The largest distance, at a window's anchor, between two discs that collide in a window of this
@@ -65,8 +65,8 @@ struct WindowChoice {
 };
 WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<double> wanted);
 
-/// The longest window in a box with periodic sides. Discs must not cross the whole box in a window,
-/// because then many images would have to be searched.
+/// The longest window in a box with periodic sides, in which discs at this speed fly half a period.
+/// In longer windows many images would have to be searched. Infinite without periodic sides.
 inline double longest_in_period(const Periods& periods, double speed) {
     return periods.are_any() ? periods.shortest() / (2 * speed)
                              : std::numeric_limits<double>::infinity();

@@ -10,13 +10,13 @@ namespace carrom {
 
 namespace {
 
-/// Number of rounds in which shares are adjusted, in the first window and in later windows. Rounds
-/// end earlier if the largest work of a block is below `even_enough` times the mean. A round with
-/// 128 blocks takes 40 us on one thread.
+/// Largest number of rounds that adjust the blocks' shares, in the first window and in later ones.
+/// No round follows if the block with most work has less than `even_enough` times the mean work. A
+/// round with 128 blocks takes 40 us on one thread.
 constexpr int first_rounds = 10, later_rounds = 4;
 constexpr double even_enough = 1.08;
 
-/// Returns the first place after `first` from which on `is_beyond` holds, at most `end`.
+/// Returns the least column or row after `first`, at most `end`, from which on `is_beyond` holds.
 template <class Claim> int first_beyond(int first, int end, const Claim& is_beyond) {
     while (end - first > 1) {
         const int middle = first + (end - first) / 2;
@@ -25,8 +25,8 @@ template <class Claim> int first_beyond(int first, int end, const Claim& is_beyo
     return end;
 }
 
-/// Cuts a rectangle across the longer side of the part that holds discs, so that `share` of the
-/// work is below the cut. Returns false if there is no work, or if one cell holds all of it.
+/// Cuts a rectangle across the longer side of the part that contains discs, so that about `share`
+/// of the work is below the cut. Returns false if there is no work, or if all of it is in one cell.
 bool cut_longer(const CellBlock& part, double share, const CellSums& sums, bool& by_column,
                 int& cut) {
     const double wanted = share * static_cast<double>(sums.in(part));
@@ -86,7 +86,7 @@ void BlockCuts::cut_evenly(const CellBlock& cells, int block_columns, int block_
 }
 
 void BlockCuts::cut_by_work(const CellBlock& cells, const CutNeeds& needs, const CellSums& sums) {
-    // Discs hardly move in a window, so shares of the last window are nearly right.
+    // Discs hardly move in a window, so the shares found for the last window are nearly right.
     const bool is_first = shares_.size() != needs.n_blocks;
     if (is_first) shares_.assign(needs.n_blocks, 1);
     const int n_rounds = is_first ? first_rounds : later_rounds;
@@ -126,8 +126,8 @@ void BlockCuts::cut_by_work(const CellBlock& cells, const CutNeeds& needs, const
             least = most / mean;
             shares_ = shares;
         }
-        // The square root damps the change, because halos change with the cuts, so shares that
-        // follow the full ratio would overshoot each time.
+        // The square root damps the change. With the full ratio, shares would overshoot each
+        // time, because the halos change with the cuts, too.
         for (std::size_t k = 0; k < work_.size(); ++k)
             shares[numbers_[k]] *= std::sqrt(std::clamp(mean / std::max(work_[k], 1.0), 0.5, 2.0));
     }

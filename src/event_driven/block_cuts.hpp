@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the cells of a strip are cut into blocks. If there is one thread, blocks have equal areas. If
-// there are several, blocks have about equal work, because all threads wait for the block with most
-// work. The cuts affect the run's time, not its bits.
+// How the cells of a rank are cut into blocks: into equal areas if the rank has one thread and
+// discs are spread evenly, otherwise into about equal work, because all threads wait for the block
+// with most work. The cuts affect the run's time, not its bits.
 //
 // The cells are halved repeatedly across their longer side, so that blocks are as square as
 // possible, because a square has the smallest halo. The work of a block includes its halo. Cost:
@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-/// A rectangle of cells of a grid's frame: columns and rows [first, end).
+/// A rectangle of cells of a grid: columns and rows [first, end).
 struct CellBlock {
     int first_column = 0, end_column = 0;
     int first_row = 0, end_row = 0;
@@ -35,26 +35,26 @@ struct CellBlock {
     }
 };
 
-/// The work of a cell, in whole units.
+/// The estimated work of a cell, as an integer in a unit that the caller chooses.
 struct CellWork {
-    std::uint32_t per_disc = 1, per_pair = 0; ///< each pair counts twice
+    std::uint32_t per_disc = 1, per_pair = 0; ///< work of each disc and of each ordered pair
 
     std::uint32_t of(std::uint32_t n_discs) const {
         return n_discs * (per_disc + (n_discs - 1) * per_pair);
     }
 };
 
-/// Sums the work of the cells in any rectangle by four reads.
+/// Computes the work of all cells in any rectangle from four numbers of a table.
 class CellSums {
 public:
-    /// `discs_before(column, row)` is the number of discs of a column before `row`, plus any number
-    /// that is the same for all rows. The work of all `cells` adds up to less than 2^32. Defined in
-    /// cell_sums_fill.hpp.
+    /// `discs_before(column, row)` is the number of discs in the rows of the column below `row`,
+    /// plus a constant that may differ between columns. The work of all `cells` must be less than
+    /// 2^32. Defined in cell_sums_fill.hpp.
     template <class DiscsBefore>
     void fill(const CellBlock& cells, int n_threads, const CellWork& work,
               const DiscsBefore& discs_before);
     std::uint64_t in(const CellBlock& part) const;
-    /// The smallest rectangle that holds all work of `part`.
+    /// The smallest rectangle that contains all work of `part`.
     CellBlock occupied(CellBlock part) const;
 
 private:
@@ -65,14 +65,14 @@ private:
     }
 
     CellBlock cells_;
-    /// For each cell the work of all cells to the left of it and below it
+    /// For each cell, the work of the cells that are in columns to its left and in rows below it
     RawVector<std::uint32_t> sums_;
 };
 
 struct CutNeeds {
     std::size_t n_blocks = 1;
     int halo = 1;    ///< width of a block's halo, in cells
-    CellBlock frame; ///< all cells that hold discs, also those of other ranks and images
+    CellBlock frame; ///< all cells of the grid, also those for other ranks' discs and images
 };
 
 class BlockCuts {
@@ -85,17 +85,17 @@ public:
 
     /// The blocks, in an order in which neighbours follow each other as far as possible.
     const std::vector<CellBlock>& blocks() const { return blocks_; }
-    /// The expected work of each block with its halo, in any unit. Empty if cells were cut evenly.
+    /// The expected work of each block with its halo, in units of CellWork; empty after cut_evenly.
     const std::vector<double>& work() const { return work_; }
-    /// The block that holds a cell of the strip.
+    /// The index in `blocks()` of the block that contains this cell.
     std::size_t block_of(int column, int row) const;
 
 private:
     /// A rectangle that is a block or is divided in two parts.
     struct Node {
         bool is_block = true, is_cut_by_column = false;
-        int cut = 0; ///< where the upper part of a divided rectangle begins
-        /// Indices of the nodes of both parts; for a block, `lower` is the number of the block
+        int cut = 0; ///< first column or row of the upper part of a divided rectangle
+        /// Indices of the nodes of both parts; for a block, `lower` is its index in `blocks_`
         std::size_t lower = 0, upper = 0;
     };
     struct Cut {
@@ -113,9 +113,9 @@ private:
                     const Decision& decide);
 
     std::vector<CellBlock> blocks_;
-    std::vector<std::size_t> numbers_; ///< for each node the number of its first block
+    std::vector<std::size_t> numbers_; ///< for each block, the index of its share in `shares_`
     std::vector<Node> nodes_;          ///< the first node contains all cells
-    std::vector<double> work_;         ///< expected work of each block; empty if cut evenly
+    std::vector<double> work_;         ///< expected work of each block with its halo, or empty
     std::vector<double> shares_; ///< work of the blocks without their halos, relative to each other
 };
 

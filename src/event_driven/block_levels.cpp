@@ -12,7 +12,7 @@
 
 namespace carrom {
 
-/// Lists the discs of a block and its halo by level, in cells of the level.
+/// Lists the discs of a block and its halo level by level, in the order of each level's cells.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::list_levels(const CellBlock& own, int halo) {
     list_discs(own, halo);
@@ -64,8 +64,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::list_levels_of_all()
     lay_levels(ground.extent, periods(), ground.n_own);
 }
 
-/// Gives slots to the discs in `in_levels`. Cells fill `extent`; cells of a whole box repeat with
-/// the periods `across`. Discs with indices below `n_at_home` keep their stored image.
+/// Gives slots to the discs in `in_levels`, in cells that fill `extent`. `across` has the periods
+/// in a run of the whole box, else none. Discs with indices below `n_at_home` keep their images.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::lay_levels(const Extent& extent, const Periods& across,
                                              std::size_t n_at_home) {
@@ -92,7 +92,7 @@ void BlockRun<Dynamics>::Scratch::lay_levels(const Extent& extent, const Periods
     cell_starts = layout.cell_starts();
 }
 
-/// Does the work of set_scales for levels. Lanes are in units of the smallest discs' cells.
+/// Does the work of set_scales for levels. Lanes are in units of the width of the smallest cells.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales_of_levels() {
     const BlockWindow& window = ground.window;
     cell_width = levels.front().cells.width;
@@ -217,7 +217,7 @@ void BlockRun<Dynamics>::Scratch::find_runs_of(const LevelCells& level, const Fl
               {left, right, bottom, top});
 }
 
-/// Predicts contacts with the discs in `runs`, displaced by `image` if there is one.
+/// Predicts contacts of the flight's disc with discs in `runs`, displaced by `image` if not null.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_seen(const Flight& flight, float radius,
                                                const Image* image) {

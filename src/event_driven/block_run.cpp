@@ -144,7 +144,7 @@ void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_
     for (std::size_t k = 0; k < n.q; ++k) predict_pair(q, others_partners[k]);
 }
 
-/// Predicts the contact of disc `a` with disc `b`, displaced by `image` if there is one.
+/// Predicts the contact of disc `a` with disc `b`, which `image` displaces unless it is null.
 template <class Dynamics>
 [[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::predict_shifted(
     std::uint32_t a, std::uint32_t b, const Image* image) {
@@ -174,12 +174,12 @@ void BlockRun<Dynamics>::Scratch::predict_image(std::uint32_t a, std::uint32_t b
     predict_shifted(a, b, &image);
 }
 
-/// Fixed bodies behind the first side that the disc meets are not searched.
+/// Predicts bounces at sides, and at the first fixed body that the disc meets before any side.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::uint32_t slot) {
     const double begin = ground.window.begin, end = ground.window.end;
     const DiscState& disc = discs[slot];
     const float x_end = x[slot] + vx[slot], y_end = y[slot] + vy[slot];
-    float radius = 0; // stays 0 for equal discs, whose radius `x_inner_low` contains
+    float radius = 0; // stays 0 for equal discs: `x_inner_low` includes their radius
     if constexpr (has_sizes) radius = radii[slot];
     const bool is_inside = x_end - radius > x_inner_low && x_end + radius < x_inner_high &&
                            y_end - radius > y_inner_low && y_end + radius < y_inner_high;
@@ -195,9 +195,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::u
     predict_fixed_body(slot, until);
 }
 
-/// Predicts the first fixed body that the disc meets before `until`, the time at which it meets a
-/// side. At the time of its last collision the fixed body that it has just left does not count, for
-/// the same reason as a pair that has just collided.
+/// Predicts the collision with the first fixed body that the disc meets before `until`, the time
+/// when it meets a side or the window ends. The fixed body that the disc has just hit is ignored at
+/// the time of that hit, because of rounding errors (see predict_shifted).
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_fixed_body(std::uint32_t slot,
                                                      [[maybe_unused]] double until) {
@@ -255,8 +255,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
                           discs[event.p].has_departed(); // the disc left through the first side
     if (is_corner && !has_left &&
         (Dynamics::has_mirror_walls ||
-         discs[event.p].vy ==
-             vy_before)) { // y follows immediately, because the order of sides has no meaning
+         discs[event.p].vy == vy_before)) { // the bounce off the other side has the same time
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;
@@ -339,7 +338,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::u
                                      ground.window.speed_bound * (1 + 1e-6)});
 }
 
-/// Adds an event to the history of one of its discs.
+/// Updates the history and the flight of one disc of an event. Own discs are listed as hit.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner,
                                        const Event& event) {

@@ -29,8 +29,8 @@
 // collided with a disc from beyond the ring.
 //
 // The run uses copies of the discs in the order of cells, 64 bytes and four floats a disc, so that
-// the copies stay in the L2 cache. Most pairs are rejected in single precision, many in parallel.
-// The predicate in double precision decides about the rest.
+// the copies stay in the L2 cache. Most pairs are rejected in single precision, many at a time. A
+// test in double precision decides about the rest.
 #pragma once
 
 #include <cstdint>
@@ -59,22 +59,22 @@ namespace carrom {
 struct BlockWindow {
     double begin = 0, end = 1;
     bool holds_begin = true;
-    /// No disc is faster than this at the start. The run is invalid if a disc moves further from
-    /// its initial position than this speed allows.
+    /// No disc is faster than this at `begin`. The run is invalid if a disc moves further from its
+    /// position at `begin` than this speed allows.
     double speed_bound = 0;
 
     double duration() const { return end - begin; }
     BlockWindow with_bound(double speed) const { return {begin, end, holds_begin, speed}; }
 };
 
-/// The largest distance at the start of a window between two discs that can meet in it. `n_reach`
-/// cells must cover this distance.
+/// The largest distance at the start of a window between two discs that can meet in it. A number of
+/// GridGeometry::n_reach cells must cover this distance.
 double block_reach(const BlockWindow& window, double diameter, const Box& box);
 
-/// Empty sums in the engine's unit, and the time of flights before the last sync.
+/// Empty sums with which each block's sums start, and the time of flights before the last sync.
 struct BlockSums {
-    StressSums no_stress{0x1p900}; ///< sums of zero in the engine's unit
-    LossSums no_losses{0x1p900};   ///< sums of zero in the engine's unit
+    StressSums no_stress{0x1p900}; ///< empty; terms are rounded to the unit of the engine's sums
+    LossSums no_losses{0x1p900};   ///< empty; terms are rounded to the unit of the engine's sums
     double flown_before = 0; ///< time of flights before the last sync that the stress still lacks
 };
 
@@ -84,7 +84,7 @@ struct BlockNotes {
     bool pairs_in_log = true;   ///< collisions of pairs go to BlockOutcome::log, too
     bool pairs = false;         ///< collisions of pairs go to BlockOutcome::pairs
     std::int64_t last_sync = 0; ///< micro-step of the last sync, for BlockOutcome::pairs
-    double velocity_unit = 1;   ///< unit of the velocities in BlockOutcome::pairs
+    double velocity_unit = 1;   ///< factor from stored velocities to those in BlockOutcome::pairs
 
     friend bool operator==(const BlockNotes&, const BlockNotes&) = default;
 };
@@ -93,23 +93,23 @@ struct BlockNotes {
 struct BlockGround {
     std::span<const DiscState> discs; ///< the rank's own discs, then the halo
     std::size_t n_own = 0;
-    const SideColumns* columns = nullptr; ///< rows in the order of `discs`
-    const CellGrid* grid = nullptr;       ///< holds the discs at the window's start
-    CellBlock own_cells; ///< own discs that are outside by rounding count in the nearest cell
+    const SideColumns* columns = nullptr; ///< side columns of `discs`, in the same order
+    const CellGrid* grid = nullptr;       ///< discs sorted by positions at the window's start
+    CellBlock own_cells; ///< cells of own discs; rounding may put such a disc beside them
     BlockWindow window;
     std::span<const double> stops{}; ///< times inside the window at which parts of it end
     /// Whether there is one run of the whole box. Then no histories are compared, and no grid is
     /// built.
     bool is_alone = false;
-    BoxCells box_cells{};                ///< for runs of the whole box
+    BoxCells box_cells{};                ///< cells for runs of the whole box
     Extent extent{};                     ///< the box, for runs of the whole box
     std::span<const SizeLevel> levels{}; ///< levels of sizes, smallest discs first
     BlockSums sums{};
     BlockNotes notes{};
 };
 
-/// The event history of a disc of a block's ring. It is 0 if the disc had no event, otherwise a
-/// hash of times, partners and results, whose last byte is a SpeedClass.
+/// The event history of a disc in a block's ring (within one reach of the block): 0 without any
+/// event, otherwise a hash of times, partners and results, whose last byte is a SpeedClass.
 struct HaloRecord {
     LocalIndex index = 0;
     std::uint64_t history = 0;
@@ -125,22 +125,22 @@ inline SpeedClass speed_class_of(std::uint64_t history) {
     return static_cast<SpeedClass>(history & largest_speed_class);
 }
 
-/// A collision for the log. The time counts from the last sync, and the impulse is per micro-step.
+/// A collision for the log. `time` is since the last sync; `impulse` is the length of `gained`.
 struct LoggedEvent {
     double time = 0;
     std::uint32_t generation = 0;
     bool is_wall = false;
     DiscId p = 0, q = 0; ///< if `is_wall`, q is 0 for a wall across x, 1 for one across y, and
-                         ///< otherwise a fixed body
+                         ///< larger for a fixed body
     double impulse = 0;
-    double gained_x = 0, gained_y = 0; ///< change of velocity, per micro-step
-    double vx = 0, vy = 0;             ///< velocity of the first disc, afterwards
-    BodyTouch touch{};                 ///< contact with a fixed body
+    double gained_x = 0, gained_y = 0; ///< change of the velocity of p, in lengths per micro-step
+    double vx = 0, vy = 0;             ///< velocity of p after the collision
+    BodyTouch touch{};                 ///< place and normal of the contact with a fixed body
 };
 
-/// The state of a disc at the end of a window. Members that a window does not change are left out,
-/// which saves a quarter of the memory, because many new states are kept until the window is
-/// validated.
+/// The state of a disc at the end of a part. Members that a window does not change are left out.
+/// This saves a quarter of the memory of a DiscState, which matters because many new states are
+/// kept until the window is validated.
 class NewState {
 public:
     NewState() = default;
@@ -149,8 +149,8 @@ public:
           wall_collisions_(disc.wall_collisions & low_bits), is_departed_(disc.is_departed),
           pair_collisions_(disc.pair_collisions & low_bits), has_collided_(disc.has_collided) {}
 
-    /// Requires that `disc` is in its state of the window's start, and that its counters have
-    /// increased by less than 2^31.
+    /// Writes this state to `disc`, which must have its state of the window's start. Its counters
+    /// must have increased by less than 2^31 in the window.
     void overwrite(DiscState& disc) const {
         disc.x = x_;
         disc.y = y_;
@@ -176,31 +176,31 @@ static_assert(sizeof(NewState) == 48);
 
 /// The events of own discs from one stop to the next, or to the window's end.
 struct BlockPart {
-    /// Numbers of entries in the lists of BlockOutcome up to the end of this part.
+    /// Sizes of `hit`, `log` and `pairs` of BlockOutcome at the end of this part.
     std::size_t n_hit = 0, n_logged = 0, n_pairs = 0;
-    std::uint64_t n_simultaneous = 0; ///< see RollbackCounts
-    StressSums stress{1};             ///< sums over the events
-    LossSums losses{1};               ///< sums over the events
-    double work = 0;                  ///< work of moving images in the events
+    std::uint64_t n_simultaneous = 0; ///< collisions at equal times; see RollbackCounts
+    StressSums stress{1};             ///< sums over the events of this part
+    LossSums losses{1};               ///< sums over the events of this part
+    double work = 0;                  ///< work that moving images do on discs in these events
 };
 
-/// The results of a run. Lists begin with the entries of the first part.
+/// The results of a run. Lists have the entries of the first part, then of the second, and so on.
 struct BlockOutcome {
     std::vector<BlockPart> parts; ///< one part for each stop, and one for the window's end
-    std::vector<LocalIndex> hit;  ///< own discs that have collided, once for each part
+    std::vector<LocalIndex> hit;  ///< own discs that have collided, part by part; once in each part
     RawVector<NewState> states;   ///< the new states of the discs in `hit`, in the same order
     SideColumns columns;          ///< side columns of the discs in `hit`, in the same order
     std::vector<HaloRecord> ring;
     std::vector<LoggedEvent> log;
     NotedEvents<PairEvent> pairs;
     std::uint64_t n_events = 0;  ///< number of events whose first disc is an own disc
-    std::uint64_t n_carried = 0; ///< number of all events of the run, those of the halo included
-    std::uint64_t n_seen = 0;    ///< number of discs of the run, with its halo
+    std::uint64_t n_carried = 0; ///< number of all events of the run, including events of the halo
+    std::uint64_t n_seen = 0;    ///< number of discs of the run, with its halo and its ghosts
     double too_fast = 0;         ///< largest speed of discs that were too fast for the window, or 0
-    /// 0, or at least the speed of any disc from beyond the ring that collided with an own disc
+    /// Upper bound of the speeds of discs from beyond the ring that met own discs; 0 if none did
     double far_partner = 0;
     double largest_speed_at_end = 0;
-    double largest_speed = 0; ///< a bound of the speed of own discs at any time of the run
+    double largest_speed = 0; ///< upper bound of the speeds of own discs during the run
     bool is_cascade = false;  ///< whether the run ended in a collision cascade
     DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if the disc meets a wall
     double cascade_time = 0;
@@ -214,7 +214,7 @@ struct BlockOutcome {
     }
 };
 
-/// Scratch space of one thread; it keeps its memory from block to block.
+/// Runs blocks on one thread. It keeps its memory from block to block.
 template <class Dynamics> class BlockRun {
 public:
     explicit BlockRun(const Dynamics& dynamics);
@@ -227,12 +227,12 @@ public:
     void run(const BlockGround& ground, const CellBlock& block, int halo,
              std::span<std::uint64_t> histories, BlockOutcome& outcome);
 
-    /// Runs all discs of the box, which must all be on this rank. Each disc occurs once, and its
-    /// images are ghosts. The result is always right, because no disc is missing.
+    /// Runs all discs of the box, which must be own discs or in the halo. Each disc occurs once,
+    /// and its images are ghosts (box_layout.hpp). No other block can change the result.
     void run_whole(const BlockGround& ground, const CellBlock& block,
                    std::span<std::uint64_t> histories, BlockOutcome& outcome);
 
-    /// Uses these dynamics from now on, because walls have moved since the last sync.
+    /// Replaces the dynamics after a sync, because walls and moving images depend on the time.
     void change_dynamics(const Dynamics& dynamics);
 
     std::size_t bytes() const;

@@ -60,18 +60,18 @@ struct CellsOfBox {
 struct LevelCells {
     BoxCells cells;
     double smallest_radius = 0, largest_radius = 0; ///< radii at the window's end
-    std::size_t first_start = 0;                    ///< index in `cell_starts`
+    std::size_t first_start = 0;                    ///< index in `cell_starts` of the first cell
     std::uint32_t end_slot = 0;
     float columns_per_unit = 1, rows_per_unit = 1; ///< cells per unit of the lanes
-    float left = 0, bottom = 0;                    ///< corner of the cells, in units of the lanes
-    float farthest = 0; ///< half width of a flight box, without the searching disc's radius
+    float left = 0, bottom = 0;                    ///< lower left corner, in units of the lanes
+    float farthest = 0; ///< margin of a flight box around the disc's flight, in units of the lanes
 
     int n_columns() const { return cells.n_columns + 2 * cells.n_beside; }
     int n_rows() const { return cells.n_rows + 2 * cells.n_above; }
 };
 
 template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
-    /// Whether discs of several radii lie in levels of cells, which is not done if images move.
+    /// Whether discs lie in levels of cells by size. This is not done if rows of images move.
     static constexpr bool has_sizes = Dynamics::has_species && !Dynamics::has_moving_images;
 
     explicit Scratch(const Dynamics& of_scene) : dynamics(of_scene) {}
@@ -83,7 +83,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void set_scales();
     void mark_own(const CellBlock& own);
     void mark_own_of_all(const CellBlock& own);
-    /// Stores a disc's velocity, and its position extrapolated to the window's start, in cells.
+    /// Stores a disc's velocity in cells per window, and its position at `start` in cells.
     [[gnu::always_inline]] void place(std::uint32_t slot, double start) {
         const DiscState& disc = discs[slot];
         const auto [along, across] = turned(axis, x_of(disc, start), y_of(disc, start));
@@ -120,7 +120,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     void check_partner(std::uint32_t slot);
     void note(std::uint32_t slot, std::uint32_t partner, const Event& event);
     void hold_to_schedule(std::uint32_t slot, double time);
-    /// The flight of a disc that has just collided.
+    /// The flight of a disc from its last collision on.
     Flight flight_of(std::uint32_t slot) const {
         const auto now = static_cast<float>((discs[slot].tau - ground.window.begin) *
                                             windows_per_time);
@@ -269,19 +269,19 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     int owning_column(int column) const {
         return std::clamp(column, ground.own_cells.first_column, ground.own_cells.end_column - 1);
     }
-    /// Slots of cells (column, first_row .. last_row) that are counted from the corner of `cells`.
+    /// Slots of cells (column, first_row .. last_row); `cells` begins with column 0 and row 0.
     SlotRange cell_run(int column, int first_row, int last_row) const {
         const std::uint32_t* const starts = cell_starts.data() +
                                             static_cast<std::size_t>(column) * cell_rows;
         return {starts[first_row], starts[last_row + 1]};
     }
-    /// Slots of cells (column, first_row .. last_row) that are counted as in the rank's grid.
+    /// Slots of cells (column, first_row .. last_row), numbered as in the rank's grid.
     SlotRange grid_run(int column, int first_row, int last_row) const {
         return cell_run(column - cells.first_column, first_row - cells.first_row,
                         last_row - cells.first_row);
     }
 
-    /// Whether the disc is in the ring (own discs included), so that the block reports its history.
+    /// Whether the disc is in a cell of `ring`, so that the block reports its history.
     bool is_compared(std::uint32_t slot) const {
         if (has_sizes) return is_of_ring[slot] != 0;
         const auto behind = std::upper_bound(cell_starts.begin(), cell_starts.end(), slot);
@@ -307,8 +307,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     /// Records a collision after it was carried out, while the second disc is at its image's place.
     [[gnu::noinline]] void record_pair(const Event& event, const PairStress<Dynamics>& before,
                                        const Separation& to) {
-        if (!outcome->pairs.has_room()) [[unlikely]] // a function of its own, so that the loop
-                                                     // saves no register for it
+        if (!outcome->pairs.has_room()) [[unlikely]] // this rare case has a function of its own, so
+                                                     // that the event loop saves no register for it
             return record_pair_in_more_room(event, before, to);
         const DiscState &p = discs[event.p], &q = discs[event.q];
         record_in(outcome->pairs.add(), dynamics, p, to, p, q, before.vx(), before.vy(), event.time,
@@ -337,12 +337,12 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     Dynamics dynamics;
     BlockGround ground;
-    bool is_whole = false; ///< true if every disc occurs once
+    bool is_whole = false; ///< whether the run covers the whole box, so that every disc occurs once
     CellBlock cells;       ///< own cells and the halo
-    CellBlock ring;        ///< own cells and those within one reach of them
+    CellBlock ring;        ///< own cells and all cells within one reach of them
     CellBlock firsts; ///< cells of the first discs of pairs, counted from the corner of `cells`
     int n_reach_columns = 1, n_reach_rows = 1;
-    Axis axis = Axis::x; ///< the grid's axis; lanes, corners and walls use it as x, in cells
+    Axis axis = Axis::x; ///< the box's axis that cells, lanes, corners and bounds here call x
     double x_corner = 0, y_corner = 0, cell_width = 1, cells_per_length = 1, cells_per_speed = 1,
            windows_per_time = 1;
     float column_limit = 0, row_limit = 0;
@@ -351,17 +351,17 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
           /// `farthest`: distance in cells by which a flight box extends beyond its flight
         farthest = 0;
     float x_inner_low = 0, x_inner_high = 0, y_inner_low = 0,
-          y_inner_high = 0;    ///< a disc between these bounds, in cells, is near no wall
+          y_inner_high = 0;    ///< a disc whose flight ends between these, in cells, meets no wall
     std::size_t cell_rows = 0; ///< number of entries of `cell_starts` for each column
-    std::vector<std::uint32_t> cell_starts; ///< by column and row, plus an end for each column
-    std::vector<LocalIndex> indices;        ///< by slot, like all arrays below
+    std::vector<std::uint32_t> cell_starts; ///< first slot of each cell, and each column's end
+    std::vector<LocalIndex> indices;        ///< for each slot, the disc's index in `ground.discs`
     DiscStates discs;
     SideColumns columns = side_columns_of(dynamics);
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;
-    std::vector<std::uint8_t> is_hit;     ///< whether an own disc has collided in this part
+    std::vector<std::uint8_t> is_hit;     ///< whether a slot's disc has collided in this part
     std::vector<std::uint32_t> hit_slots; ///< slots of these discs
-    BoxLayout layout;                     ///< only for a run of the whole box
+    BoxLayout layout;                     ///< for runs of the whole box and for levels of sizes
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
     EventQueue queue;
@@ -370,28 +370,28 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::vector<std::uint32_t> partners,
         others_partners; ///< partners of one disc, and of the disc that it collided with
     std::vector<std::uint32_t> later,
-        /// `later` has the partners of a column's discs; `later_ends` has their end for each disc
+        /// `later`: partners of a column's discs; `later_ends`: the end of each disc's partners
         later_ends;
     CascadeWatch cascade_watch;
     BlockOutcome* outcome = nullptr;
-    BlockPart part;                 ///< the present part
+    BlockPart part;                 ///< the part of the window that is being run
     StressTerms stress_terms;       ///< terms that have not been added to the part's sums yet
     double bound_squared = 0;       ///< square of the speed bound
     float bound_lane_squared = 0;   ///< the square of a slightly smaller bound, in cells per window
     double void_squared = 0;        ///< squared disc speed above which `is_void` ends the run
-    double too_fast = 0;            ///< the value for BlockOutcome::too_fast
+    double too_fast = 0;            ///< largest speed that was too fast for the window, or 0
     bool is_void = false;           ///< whether a disc's speed requires a far shorter window
     double largest_squared = 0;     ///< square of BlockOutcome::largest_speed
     double classes_per_squared = 1; ///< number of speed classes for each unit of the squared speed
     // Members for discs of several sizes.
     std::vector<LevelCells> levels;                 ///< smallest discs first
-    std::vector<std::vector<LocalIndex>> in_levels; ///< the listed discs of each level
-    /// For each slot of a level, the disc's index in its list
+    std::vector<std::vector<LocalIndex>> in_levels; ///< indices of the discs of each level
+    /// For each slot of a level, the disc's position in the level's list in `in_levels`
     std::vector<std::vector<std::uint32_t>> orders;
-    std::vector<float> radii; ///< radius of the disc in each slot, in cells
-    /// Margins that are added to sums of radii, by the levels of both discs
+    std::vector<float> radii; ///< radius of the disc in each slot, in units of the lanes
+    /// Margins added to sums of radii, for each pair of levels (margin_of), in units of the lanes
     std::vector<float> margins;
-    /// Whether the disc in each slot is in the ring, so that the block reports its history
+    /// For each slot, whether its disc is within one reach of own cells: its history is reported
     std::vector<std::uint8_t> is_of_ring;
 };
 

@@ -151,7 +151,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
     const double reach = block_reach(window, diameter, dynamics.box()) * cells_per_length;
     // Separations carry an error of 2^-21 of the block's size. The rounding of the filter's other
     // terms acts like a diameter that is longer by 2^-20 d^2 / diameter, where d is the largest
-    // distance of a disc that is tried.
+    // distance at which the filter tests a pair.
     const double farthest_tried = 3 * reach + 3;
     const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent +
                             0x1p-20 * farthest_tried * farthest_tried / sigma;
@@ -184,7 +184,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own(const CellB
     }
 }
 
-/// Marks the block's own discs in a run of the whole box, by the cells of the rank.
+/// Marks the block's own discs in a run of the whole box: those in its cells of the rank's grid.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own_of_all(const CellBlock& own) {
     if (ground.is_alone) {
         is_own.assign(indices.size(), 1);
@@ -220,7 +220,7 @@ template <class Dynamics>
     if (is_hit[slot] != 0) report_hit(slot, next++);
 }
 
-/// Writes the present state of a disc to place `place` of the outcome's lists.
+/// Writes the present state of a disc to the entries with index `place` of the outcome's lists.
 template <class Dynamics>
 [[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::report_hit(std::uint32_t slot,
                                                                            std::size_t place) {
@@ -277,7 +277,7 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
 }
 
-/// Reports own discs in the order of cells, which is also the order of the rank's discs.
+/// Reports own discs and discs of the ring in the order of their slots.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::report_by_cells(std::span<std::uint64_t> histories,
                                                   double& end_squared) {
@@ -297,10 +297,10 @@ void BlockRun<Dynamics>::Scratch::report_by_cells(std::span<std::uint64_t> histo
     end_part();
 }
 
-/// A window is exact if no disc is ever further from its initial place than the speed bound allows
-/// at that time. So a disc may exceed the bound for a while without harm if it was slower before.
-/// The run is void if the disc might get too far before the window ends, or if it collides again
-/// while it is too far away.
+/// A window is exact if no disc is ever further from its place at the window's start than the speed
+/// bound allows at that time. So a disc may exceed the bound for a while without harm if it was
+/// slower before. The run is void if the disc might get too far before the window ends, or if it
+/// collides again while it is too far away.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
     const DiscState &disc = discs[slot], &at_start = ground.discs[indices[slot]];

@@ -32,12 +32,12 @@ constexpr int most_blocks_per_thread = 8;
 /// The slowest of many blocks takes longer than its cells and discs suggest, by the share
 /// `unforeseen`. A run that is repeated with twice the halo takes `repeated_run` times as long.
 constexpr double unforeseen = 0.1, repeated_run = 1.6;
-constexpr double densest_gas = 0.7; ///< largest packing for which a collision rate is estimated
-/// If the diameter is a smaller share of the reach, a halo of two reaches is enough: discs fly far
-/// compared with their size, so few chains of collisions lead beyond it in a window.
+constexpr double densest_gas = 0.7; ///< largest packing fraction for which a rate is estimated
+/// If the diameter is less than this share of the reach, a halo of two reaches is enough: discs fly
+/// far compared with their size, so few chains of collisions lead beyond it in a window.
 constexpr double thin_gas = 0.2;
 
-// Repeating a block's run with twice the halo, and its consequences, cost two or three runs.
+// Repeating a block's run with twice the halo, and its consequences, cost as much as 2.5 runs.
 constexpr double runs_to_repeat = 2.5, mostly_repeated = 0.5;
 constexpr double memory = 0.9; ///< weight of older windows in a running mean
 /// Weight of older windows in the mean of waits. It is larger, because a single wait is long and
@@ -77,7 +77,7 @@ double share_waited(const BlockNeeds& needs, const BlockChoice& choice) {
     return 1 + (unforeseen + repeated_run * needs.rounds) / blocks_per_thread;
 }
 
-/// Chooses blocks of `own_discs` discs each, for the density in which most discs are.
+/// Chooses blocks of `own_discs` own discs each, for the mean density around discs.
 void take_blocks_of(double own_discs, const BlockNeeds& needs, BlockChoice& choice) {
     const double area = own_discs * spacing_of(needs) * spacing_of(needs);
     choice.own_discs = own_discs;
@@ -121,7 +121,7 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
     return choice;
 }
 
-/// Bounces at walls per disc and time. Each bounce needs a prediction, as a collision does.
+/// Bounces at walls per disc and micro-step. Each needs a prediction, as a collision does.
 double bounce_rate(const BlockNeeds& needs) {
     const double speed = 2 / std::numbers::pi * usual_speed * needs.speed_bound;
     return (needs.goes_round_x ? 0 : speed / needs.box.x) +

@@ -20,7 +20,7 @@ struct BlockNeeds {
     double radius = 0; ///< radius of the largest disc
     double n_discs = 0;
     double speed_bound = 0;
-    double collision_rate = 0; ///< collisions per disc and time
+    double collision_rate = 0; ///< collisions per disc and micro-step
     double time = 0;           ///< the window's start, since the last sync
     std::optional<int> halo;   ///< halo of a block's first run, in reaches, if a test has set it
     bool is_one_block = false; ///< true if one block contains all discs, whatever their number
@@ -31,18 +31,18 @@ struct BlockNeeds {
     double crowding = 1;
     double n_threads = 0; ///< threads of all ranks together; 0 if each rank has one thread
     double rounds = 0;    ///< recent mean number of rounds of repeated block runs in a window
-    double equivalent_radius = 0; ///< radius of equal discs with as many neighbours on average
+    double equivalent_radius = 0; ///< radius of equal discs with as many possible partners
 };
 
 struct BlockChoice {
     double duration = 0; ///< length of the window in micro-steps
     double reach = 0;
     int halo = 3;          ///< halo depth in reaches
-    double block_side = 0; ///< the engine rounds it to whole cells
+    double block_side = 0; ///< side of a block, in the scene's unit; the engine rounds it to cells
     double own_discs = 1;  ///< number of own discs of a block, without its halo
 };
 
-/// Returns the window of lowest cost up to the length `longest`, or of the length `wanted` if set.
+/// The window of lowest cost up to `longest`; if `wanted` is set, the shorter of these two.
 BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
                                 std::optional<double> wanted);
 
@@ -51,12 +51,12 @@ BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
 /// blocks get a larger halo. If that is not enough, windows become shorter.
 class Caution {
 public:
-    /// Statistics of a window; times are relative to its first block runs.
+    /// Statistics of a window; times are relative to the time of its first block runs.
     struct Passed {
         double hits = 0;             ///< collisions per disc
-        double repeated = 0;         ///< number of repeated block runs, over the number of blocks
+        double repeated = 0;         ///< number of repeated block runs per block
         double waited = 0;           ///< time that ranks waited for the rank that repeats most
-        double price_of_reach = 0.1; ///< time that one more reach of halo would take
+        double price_of_reach = 0.1; ///< extra time if halos were one reach deeper
     };
     void learn(const Passed& window);
     int more_halo() const { return more_halo_; }
@@ -71,8 +71,8 @@ private:
     double most_hits_ = std::numeric_limits<double>::infinity();
 };
 
-/// Estimates the collisions per disc and time in a gas of this density and mean speed, for the
-/// first window: Enskog's rate, with the contact value of Henderson (1975).
+/// Estimates the collisions per disc and micro-step in a gas of this density and mean speed, for
+/// the first window: Enskog's rate, with the contact value of Henderson (1975).
 double guessed_collision_rate(const BlockNeeds& needs, double mean_speed);
 
 } // namespace carrom

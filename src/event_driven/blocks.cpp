@@ -10,8 +10,8 @@ namespace carrom {
 
 namespace {
 
-/// Blocks are cut by work if the fullest block has this many times the mean number of discs. Below
-/// this ratio the cuts cost more than they save, and small blocks differ as much by chance.
+/// On one thread, blocks are cut by work if the fullest block has this many times the mean number
+/// of discs. Below this ratio cuts cost more than they save, and small blocks differ by chance.
 constexpr double uneven = 1.5;
 /// If discs are clustered, there are at most this many times as many cells as in a homogeneous gas,
 /// because empty cells take memory too.
@@ -22,7 +22,7 @@ constexpr double most_units = 0x1p31; ///< sums of whole work units must fit 32 
 /// mean density cost hardly more then.
 constexpr double least_crowding = 2, most_crowding = 400;
 
-/// The number of own discs before a cell. The cell's row may be the one after the last.
+/// The number of own discs in all cells before this one. `row` may be one beyond the last row.
 std::uint32_t discs_before(const CellGrid& grid, int column, int row) {
     return grid.run(column, row, row).begin;
 }
@@ -128,7 +128,7 @@ template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(do
     return geometry;
 }
 
-/// Cuts the own cells into blocks. A block that exists already keeps its halo.
+/// Cuts the own cells into blocks. They keep their halos if this window has deepened all halos.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
     const double n_pairs = measure_crowding(own_cells_);
     const bool is_set = block_tuning_.block_side || block_tuning_.cuts_by_work.has_value();
@@ -190,7 +190,7 @@ std::vector<CellBlock> EventDrivenEngine<Dynamics>::cut_by_work(double n_pairs) 
     return blocks;
 }
 
-/// Measures the crowding before the first window, by the present cells. **Collective.**
+/// Measures the crowding in the present cells, before the first window. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::learn_crowding() {
     const GridGeometry& geometry = discs_.grid().geometry();
     measure_crowding({0, geometry.n_columns, 0, geometry.n_rows});
@@ -214,7 +214,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::take_crowding(std::u
     mean_crowding_ = crowding > least_crowding ? std::min(crowding, most_crowding) : 1;
 }
 
-/// Extra bytes a disc where discs are clustered: 4 for each cell, and 4 more while blocks are cut.
+/// Extra bytes per disc if discs are clustered: 4 for each extra cell, 4 more while cutting blocks.
 template <class Dynamics> double EventDrivenEngine<Dynamics>::bytes_for_crowds() const {
     // cells per disc in a homogeneous gas with the smallest cells
     constexpr double cells_per_disc = 2;

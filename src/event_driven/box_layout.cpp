@@ -10,7 +10,7 @@ namespace carrom {
 
 double least_cell_width(double reach, double height, double length, std::uint64_t n_discs) {
     const auto n_cells = static_cast<double>(n_discs + 16);
-    // In a thin tube a cell is as high as the tube.
+    // In a thin tube discs lie in one row, with a spacing of length / n_cells.
     const double spacing = std::max(std::sqrt(height * length / n_cells), length / n_cells);
     const double per_reach = std::round(reach / std::max(2 * spacing, reach / 4));
     return std::max(reach / std::clamp(per_reach, 1.0, 4.0), 0.7 * spacing);

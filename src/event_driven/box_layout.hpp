@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole box cut into cells, for a run that has all discs of the box. Each disc has one slot.
-// Cells beyond periodic sides hold ghosts. A ghost is a slot for an image of a disc. The filter
-// (flight_filter.hpp) tests the ghost's own flight, but its state is the disc's state.
+// The cells of a run of the whole box, and of discs that lie in levels by size. Each disc has one
+// slot. Cells beyond periodic sides contain ghosts: slots for images of discs. The filter
+// (flight_filter.hpp) tests the ghost's own flight; the predicate uses the state of its disc.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 namespace carrom {
 
 /// The least width of cells in a box of this height and length. Cells are about two mean distances
-/// of discs wide, so that three rows of them hold as many discs as a vector has lanes.
+/// of discs wide, so that three cells of a column have about as many discs as a vector has lanes.
 double least_cell_width(double reach, double height, double length, std::uint64_t n_discs);
 
 /// Cells of the box. Between periodic sides they fill it exactly.
@@ -46,8 +46,8 @@ public:
     static constexpr std::uint32_t none = 0xffffffff;
 
     /// Gives slots to all discs of the box and to their ghosts, by the column and row in which they
-    /// are at `time`. `discs` begins with the rank's own discs, which lie in the box. Then come
-    /// copies of other ranks' discs; a disc may have several copies, one for each image.
+    /// are at `time`. `discs` begins with the rank's own discs, which lie in the box. It
+    /// ends with copies of other ranks' discs; a disc may have several copies, one for each image.
     void lay(std::span<const DiscState> discs, std::size_t n_own, const BoxCells& cells,
              const Periods& periods, double time);
 
@@ -98,7 +98,7 @@ private:
     std::vector<LocalIndex> indices_;
     std::vector<std::uint32_t> starts_;
     std::vector<Ghost> ghosts_;
-    /// For each slot, the index of its ghost and of its disc's first ghost, or `none`
+    /// For each slot, the indices of the ghost in it and of the first ghost of its disc, or `none`
     std::vector<std::uint32_t> ghost_at_, first_ghost_;
     std::vector<LocalIndex> listed_;        ///< each disc of the box once
     std::vector<std::uint32_t> sorted_;     ///< indices in `listed_`, in the order of the cells

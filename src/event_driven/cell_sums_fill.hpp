@@ -12,7 +12,7 @@ void CellSums::fill(const CellBlock& cells, int n_threads, const CellWork& work,
                     const DiscsBefore& discs_before) {
     cells_ = cells;
     sums_.resize(place(cells.end_column, cells.end_row) + 1);
-    // Number of rows that a thread sums through all columns
+    // Number of rows that a thread sums over all columns at a time
     constexpr int rows_each = 64;
     const int n_stretches = cells.n_rows() / rows_each + 1;
 #pragma omp parallel num_threads(n_threads)

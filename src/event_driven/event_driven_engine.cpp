@@ -20,7 +20,7 @@ namespace carrom {
 
 namespace {
 
-/// Below this number of collided discs, threads cost more time than they save.
+/// If fewer discs have collided in a commit, threads cost more time than they save.
 constexpr std::size_t least_hits_for_threads = 4096;
 
 /// The settings from which windows are chosen, equal on all ranks. **Collective.**
@@ -54,9 +54,9 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
     runaway_speed_ = runaway_speed(scene, travel_speed_);
     this->distribute();
     learn_crowding();
-    if (mean_crowding_ > 1) this->redistribute_now(); // the first cells hold too many discs
+    if (mean_crowding_ > 1) this->redistribute_now(); // the first cells have too many discs
     // Overlaps are always an error at the start of a scene. In a restart they are an error only if
-    // the dynamics separates overlapping discs; other dynamics may itself have made the overlaps.
+    // the dynamics separates overlapping discs; with other dynamics they may come from the run.
     if (dynamics_.has_pairs() && (dynamics_.parts_overlaps() || n_micro_done_ == 0))
         refuse_overlaps(population(), discs_.grid(), time_,
                         touching_of(dynamics_, time_, discs_.periods()), communicator_,
@@ -309,7 +309,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::take_speed(double la
     is_largest_known_ = false;
 }
 
-/// Ends the window at the present stop, for which its validation has found no largest speed.
+/// Ends the window at the present stop. Validation has not found the largest speed at this time.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::leave_window() {
     end_window();
     take_speed(std::sqrt(this->squared_speed_of_own(time_)));

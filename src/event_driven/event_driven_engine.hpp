@@ -7,7 +7,7 @@
 //   run           a free thread runs each block with its halo, without the other blocks
 //   validate      for discs of each block's ring that can have met an own disc, histories are
 //                 compared with those that the discs' owners found; no own disc may have met a
-//                 disc from beyond the ring or have got too far; blocks that fail run again with
+//                 disc from beyond the ring or have moved too far; blocks that fail run again with
 //                 twice the halo, and finally with the whole box (rollback)
 //   commit        discs that have collided get their new states; at a stop inside the window, only
 //                 the discs that have collided before it
@@ -33,7 +33,7 @@
 
 namespace carrom {
 
-/// Settings that tests vary. Only the validation affects the bits.
+/// Settings that tests vary. Only `is_validated` affects the bits.
 struct BlockTuning {
     std::optional<int> halo;          ///< depth of the halo, in reaches
     std::optional<double> block_side; ///< side of a block, in reaches
@@ -46,20 +46,20 @@ struct BlockTuning {
     bool notes_work = false; ///< whether work is recorded for `take_work()`
 };
 
-/// Work for each disc of a run, relative to a collision; and units of work for one collision.
+/// The work for each disc of a run, relative to the work for a collision, which is `work_unit`.
 inline constexpr double work_of_disc = 0.14;
 inline constexpr std::uint64_t work_unit = 100;
 
 /// The work of one block run, for studies of how threads share a window.
 struct BlockWork {
     std::uint64_t n_carried = 0; ///< collisions carried out, including those of halo discs
-    std::uint64_t n_seen = 0;    ///< number of discs, including halo discs
+    std::uint64_t n_seen = 0;    ///< number of discs, including halo discs and ghosts
     bool is_repeated = false;    ///< the block had run before in this window
 };
 
 /// Sums over a rank's windows so far, for studies of how ranks share a box.
 struct HaloCounts {
-    std::uint64_t n_windows = 0, n_own = 0, n_halo = 0; ///< sums over windows
+    std::uint64_t n_windows = 0, n_own = 0, n_halo = 0; ///< discs are summed over windows
     std::uint64_t n_neighbours = 0; ///< sum over windows of the number of neighbours
 };
 
@@ -176,29 +176,29 @@ private:
 
     BlockTuning block_tuning_;
     std::vector<SizeLevel> levels_;
-    double jumped_ = 0; ///< shift of the frame since the last migration, across the strips' cuts
+    double jumped_ = 0; ///< largest shift of the frame since the last migration, across the cuts
     WindowPolicy policy_;
     double first_packing_ = 0;
     double runaway_speed_ = 0; ///< speed that ends the run (runaway.hpp)
     JamWatch jam_watch_;       ///< detects a jam of growing discs
-    /// Largest speed of growing discs at the start of this sync interval or of the engine
+    /// Largest speed of growing discs at the last sync, or at the run's start if that was later
     double first_speed_ = 0;
-    /// The density in the cell of each own disc relative to the mean of the box, summed over own
-    /// discs. In a homogeneous gas each term is below 1, because discs exclude each other.
+    /// The density of other discs in each own disc's cell, relative to the mean of the box, summed
+    /// over own discs. A homogeneous gas has terms below 1, because discs exclude each other.
     double crowding_ = 0;
     double mean_crowding_ = 1; ///< mean over all discs, or 1 if it is at most 2; equal on all ranks
     /// Results of the validation of the last window, and the largest speed at its end.
     JointReduction<FoundInWindow> reduced_;
-    /// The crowding is summed in whole units of 1 / `crowding_unit`, so that order has no effect
+    /// The crowding is summed in whole units of 1 / `crowding_unit`, so the order has no effect
     static constexpr double crowding_unit = 1024;
-    bool is_largest_known_ = false; ///< whether `reduced_` holds the largest speed of all ranks
-    RollbackCounts counts_;         ///< its counts of blocks are for this rank alone
+    bool is_largest_known_ = false; ///< whether `reduced_` has the largest speed of all ranks
+    RollbackCounts counts_;         ///< counts of windows are of all ranks, others of this rank
 
     BlockChoice choice_;
     BlockWindow window_;
     std::vector<double> stops_;    ///< times inside the window at which its parts end
     std::size_t n_parts_done_ = 0; ///< number of parts that have been committed
-    BlockNotes notes_;             ///< what blocks record in this window
+    BlockNotes notes_;             ///< which events blocks record in this window
     bool is_alone_ = false; ///< whether a single run covers the whole box: one rank, few discs
     BoxCells box_cells_;    ///< cells for runs of the whole box
     int common_depth_ = 0;  ///< depth in reaches that the halos of all ranks have

@@ -35,7 +35,7 @@ struct Event {
     /// Displacement of q's image, in box lengths, from the position in its slot
     std::int16_t image_x = 0, image_y = 0;
     std::uint32_t versions = 0; ///< sum of both discs' versions when the event was predicted
-    std::uint32_t next = 0;     ///< the next entry of its bucket in the queue
+    std::uint32_t next = 0;     ///< index of the next event in the same bucket of the queue
 
     bool has_image() const { return image_x != 0 || image_y != 0; }
     Image image() const { return {image_x, image_y}; }
@@ -60,7 +60,7 @@ private:
     bool before_at_equal_times(const Event& a, const Event& b) const {
         if (a.generation != b.generation) return a.generation < b.generation;
         if (a.p != b.p && discs_[a.p].id != discs_[b.p].id)
-            return discs_[a.p].id < discs_[b.p].id; // equal for two images of one disc
+            return discs_[a.p].id < discs_[b.p].id; // ids are equal for two images of one disc
         if (is_wall(a.q) || is_wall(b.q)) return is_wall(a.q) && (!is_wall(b.q) || a.q < b.q);
         return discs_[a.q].id < discs_[b.q].id;
     }
@@ -181,7 +181,7 @@ private:
     }
 
     double begin_ = 0, buckets_per_time_ = 1;
-    std::size_t current_ = 0; ///< number of the bucket that `now_` holds
+    std::size_t current_ = 0; ///< number of the bucket whose events are in `now_`
     std::vector<Event> now_;
     std::vector<std::uint32_t> heads_;
     std::vector<Event> pool_;

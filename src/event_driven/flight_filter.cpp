@@ -110,7 +110,7 @@ HWY_INLINE Vector places(const float* at_start, const float* velocity, Vector no
     return hn::MulAdd(hn::LoadU(Lanes(), velocity), now, hn::LoadU(Lanes(), at_start));
 }
 
-/// Stands for the time 0, at which a disc's position needs no computation.
+/// Replaces the argument `now` at time 0, at which positions need no computation.
 struct AtStart {};
 HWY_INLINE Vector places(const float* at_start, const float* /*velocity*/, AtStart) {
     return hn::LoadU(Lanes(), at_start);

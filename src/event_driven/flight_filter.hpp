@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rejects most partners in a block run, many lanes at a time. It finds the flights, in some runs of
-// slots, that might touch a given flight before the window ends. It may keep pairs that never
-// touch, but it never loses a pair that does.
+// Rejects most possible partners of a flight in a block run, many at a time. The filter finds the
+// flights, in some runs of slots, that might touch a given flight before the window ends. It may
+// keep pairs that never touch, but it never loses a pair that does.
 #pragma once
 
 #include <cstddef>
@@ -49,8 +49,8 @@ struct CellRows {
 /// extrapolated to the window's start, and must be readable up to `filter_padding` entries beyond
 /// the last slot.
 ///
-/// `touching` is the distance that counts as a touch. For discs of one size it is the square of
-/// this distance. For several sizes this distance is the sum of the two radii and a margin, and
+/// Discs touch below a certain distance. For discs of one size, `touching` is the square of this
+/// distance. For several sizes the distance is the sum of the two radii and a margin, and
 /// `touching` is the flight's radius plus the margin; in `column` it is the margin alone.
 template <class SomeLanes> struct FlightFilters {
     /// Writes the slots of `runs` whose flights might touch `flight`, except the slot of `flight`

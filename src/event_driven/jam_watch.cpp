@@ -14,7 +14,7 @@ constexpr double most_in_bin = 0x1p-10;
 /// is known before it. Each next bin is twice as long, up to the usual width.
 constexpr double first_bin = 0x1p-10;
 /// A bin shows a jam only if it has more collisions than this: a fixed number, plus a number for
-/// each disc. A run needs about a second for them, and its packing grows too little in this time.
+/// each disc. Fewer collisions are no evidence, and a run needs only about a second for them.
 constexpr double enough_of_all = 0x1p20, enough_per_disc = 0x1p6;
 constexpr double ever_more = 3, rarer = 4;
 /// By the first rule a run ends only if its remaining time exceeds the time to the jam by this

@@ -5,9 +5,9 @@
 // Near a jam the room between discs shrinks steadily until a time t_J. The pressure and the speeds
 // grow as 1 / (t_J - t), because discs are compressed without loss. So the collision rate grows as
 // 1 / (t_J - t)^2, and no run reaches t_J. Two consequences are used:
-//   - if collisions are 4 times as frequent as some time ago, discs have room for that time again;
-//   - if they are more than 3 times as frequent in one of two equal bins of time as in the bin
-//     before, discs have no room for another bin.
+//   - if collisions are 4 times as frequent as a time dt ago, discs have room for another time dt;
+//   - if they are more than 3 times as frequent in a bin of time as in the bin of the same length
+//     before it, discs have no room for another bin.
 // Few collisions are no evidence and cost little, so both rules need a minimal number of collisions
 // in a bin. If collisions lose energy, speeds grow less and the collision rate grows as 1 / (t_J -
 // t); then the second rule ends the run.
@@ -24,7 +24,7 @@ class JamWatch {
 public:
     /// The facts about the run that the watch needs.
     struct Setting {
-        double rate = 0;     ///< growth of radii, as a share of the initial ones per micro-step
+        double rate = 0;     ///< growth of radii per micro-step, relative to the initial radii
         double interval = 1; ///< time between syncs
         double end = 0;      ///< end of the run, from its start
         double n_discs = 0;
@@ -44,8 +44,8 @@ public:
     /// Ends the present bin, compares its collision rate with earlier bins, and starts the next
     /// one. Returns whether a jam has been found.
     bool finish_bin();
-    /// Time up to which the discs have room, since the run's start: the beginning of the present
-    /// bin, or its end after `finish_bin` has found a jam.
+    /// The time, from the run's start, until which the discs have room: the beginning of the
+    /// present bin, or its end after `finish_bin` has found a jam.
     double safe_until() const { return safe_until_; }
 
 private:
@@ -62,7 +62,7 @@ private:
     double sync_ = 0;  ///< time of the last sync, since the run's start
     double begin_ = 0, end_ = std::numeric_limits<double>::infinity();
     double safe_until_ = 0;
-    double enough_ = 0; ///< fewer collisions in a bin never mean a jam
+    double enough_ = 0; ///< a bin with fewer collisions never shows a jam
     /// More collisions than this in the present bin mean a jam
     double limit_ = std::numeric_limits<double>::infinity();
     double n_collisions_ = 0;

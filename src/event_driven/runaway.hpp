@@ -3,9 +3,9 @@
 // If nothing takes up this energy, discs between two surfaces collide ever more often, and a step
 // with a disc in a wedge may never end.
 //
-// A run ends if a disc is 2^17 times as fast as anything at the start: discs, surfaces, walls,
-// fields, falling bodies. The square root of the largest ratio of masses is a further factor,
-// because it is the ratio of speeds at equal energy. Scenes without sliding surfaces have no limit.
+// A run ends if a disc exceeds 2^17 times the largest usual speed of discs, surfaces, walls and
+// effects at the start. The square root of the largest ratio of masses is a further factor, because
+// it is the ratio of speeds at equal energy. Scenes without sliding surfaces have no limit.
 #pragma once
 
 #include "scene/scene_parameters.hpp"

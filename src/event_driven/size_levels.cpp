@@ -17,7 +17,7 @@ constexpr int n_octaves = 48;          ///< octaves of radii that can have level
 /// Typical length of a disc's flight in a window, in mean distances between discs
 constexpr double flight = 0.5;
 
-/// The mean cost of a search. Levels are weighted by their collision rates.
+/// The mean cost of a search. Levels are weighted by their estimated collision rates.
 double cost_of(std::span<const SizeLevel> levels, double area, double travel) {
     double cost = 0, n_all = 0;
     for (const SizeLevel& own : levels) n_all += own.n_discs * own.largest_radius;
@@ -81,7 +81,7 @@ double equivalent_radius(std::span<const SizeLevel> levels) {
     if (levels.size() == 1 && levels[0].smallest_radius == levels[0].largest_radius)
         return levels[0].largest_radius;
     double sum = 0, n = 0;
-    for (const SizeLevel& level : levels) { // mean of own radius and level's largest
+    for (const SizeLevel& level : levels) { // mean of a disc's radius and its level's largest
         sum += (level.sum_of_radii + level.n_discs * level.largest_radius) / 2;
         n += level.n_discs;
     }

@@ -68,9 +68,9 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::check_partners() {
     }
 }
 
-/// Compares a ring disc's history with the history that its owner has found. If they differ, marks
-/// the block with this ring and the block that owns the disc. Discs of other ranks are appended to
-/// `foreign`.
+/// Compares the histories of ring discs with their owners' histories. If they differ and the disc
+/// can have met an own disc, marks the block of the ring and the block that owns the disc; discs of
+/// other ranks are appended to `foreign`. Blocks that ended in a cascade are marked, too.
 template <class Dynamics>
 void EventDrivenEngine<Dynamics>::compare_histories(std::vector<LocalIndex>& foreign) {
     const auto n_blocks = static_cast<std::int64_t>(blocks_.size());
@@ -179,7 +179,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::record_rollback() {
     policy_.note(rollback);
 }
 
-/// The share of additional discs in this rank's blocks if their halo were one reach deeper.
+/// The relative growth of the area of this rank's blocks and halos if halos were one reach deeper.
 template <class Dynamics> double EventDrivenEngine<Dynamics>::price_of_reach() const {
     const GridGeometry& geometry = discs_.grid().geometry();
     const CellBlock frame{0, geometry.n_columns, 0, geometry.n_rows};

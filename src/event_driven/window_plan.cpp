@@ -15,8 +15,8 @@ namespace carrom {
 
 namespace {
 
-/// A jam is reported if the largest speed rises by more than this factor between two syncs. From a
-/// dilute gas to the densest liquid growing discs become only some 30 times as fast.
+/// A jam is reported if the largest speed rises by more than this factor between two syncs. Discs
+/// that grow from a dilute gas to the densest liquid become only some 30 times as fast.
 constexpr double jam_heating = 64;
 /// Up to this number of discs, one block without a halo is fastest on one thread.
 constexpr double most_discs_alone = 30000;
@@ -62,7 +62,7 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::largest_of_all() c
 }
 
 /// The speed bound of the next window. In a frame that falls, speeds grow until the window ends,
-/// also those of discs at rest on a floor. **Collective.**
+/// even for discs at rest on a floor. **Collective.**
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
     const double gained = dynamics_.speed_gained_at(policy_.soon(time_, target)) -
@@ -70,7 +70,7 @@ double EventDrivenEngine<Dynamics>::speed_bound_until(double target) const {
     return policy_.speed_bound(largest_of_all(), travel_speed_, gained);
 }
 
-/// Stores the first speed of the interval if discs grow; otherwise it stays 0. **Collective.**
+/// Sets `first_speed_` at the start of a sync interval, if discs grow. **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::record_first_speed() {
     const double per_micro_step = dynamics_.size_at(1) - dynamics_.size_at(0);
     if (!(per_micro_step > 0) || (time_ > 0 && n_windows_ > 0)) return;
@@ -100,7 +100,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
                  static_cast<std::int64_t>(safe));
 }
 
-/// Whether a single run can cover the whole box.
+/// Whether one run of the whole box is possible and fast: one rank, few discs, no tests' settings.
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone() const {
     const auto n = static_cast<double>(discs_.n_total());
     const bool is_few = tuning_.threads == 1 ||
@@ -127,7 +127,7 @@ template <class Dynamics> BlockNeeds EventDrivenEngine<Dynamics>::block_needs(do
     return needs;
 }
 
-/// Collisions per disc and time in the last window, or an estimate for the first one.
+/// Collisions per disc and micro-step in the last window, or an estimate for the first window.
 /// **Collective.**
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::collision_rate(const BlockNeeds& needs) const {
@@ -149,7 +149,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::shorten() {
     std::erase_if(stops_, [this](double stop) { return stop >= window_.end; });
 }
 
-/// The latest end of a window, if the run stops at `target`.
+/// The latest time at which the next window may end, if the next stop is `target`.
 template <class Dynamics> double EventDrivenEngine<Dynamics>::horizon(std::int64_t target) const {
     if (jam_watch_.is_on()) return std::min(time_of(target), jam_watch_.bin_end());
     return time_of(std::min(this->horizon_of(target), target + most_stops * this->stop_interval()));

@@ -13,8 +13,8 @@ namespace carrom {
 
 /// Settings that do not change during a run; equal on all ranks.
 struct WindowSetting {
-    std::optional<double> duration; ///< duration of a window in micro-steps; unset: the fastest one
-    std::optional<int> halo;        ///< halo of a block's first run, in reaches; unset: chosen
+    std::optional<double> duration; ///< duration of a window in micro-steps; chosen if unset
+    std::optional<int> halo;        ///< halo of a block's first run, in reaches; chosen if unset
     /// Bound of speeds, relative to the largest speed at a window's start
     double speed_allowance = 1.08;
     double n_threads = 0; ///< threads of all ranks together; 0 if each rank has one thread
@@ -26,11 +26,11 @@ struct PlannedWindow {
     double end = 0;
 };
 
-/// A round of block runs that had to be repeated; equal on all ranks.
+/// A round of repeated block runs; the numbers are equal on all ranks.
 struct Rollback {
     double repeated = 0;         ///< number of repeated block runs, as a share of all blocks
     double waited = 0;           ///< extra time of the slowest rank, relative to its first runs
-    double price_of_reach = 0.1; ///< time for one more reach of halo, relative to the first runs
+    double price_of_reach = 0.1; ///< extra time of halos one reach deeper, relative to first runs
 };
 
 class WindowPolicy {
@@ -55,7 +55,7 @@ public:
     void record_end(double duration) { last_duration_ = duration; }
 
     double last_duration() const { return last_duration_; }
-    /// Collisions per disc and time in the last window.
+    /// Collisions per disc and micro-step in the last window.
     double collision_rate() const { return collision_rate_; }
     double speed_allowance() const { return setting_.speed_allowance; }
 
@@ -64,11 +64,11 @@ private:
 
     WindowSetting setting_;
     double collision_rate_ = 0;
-    double rate_to_expect_ = 0;   ///< the rate used for the choice; it falls only slowly
+    double rate_to_expect_ = 0;   ///< collision rate used for the choice; it falls only slowly
     double last_duration_ = 1;    ///< duration of the last window
-    double rounds_lately_ = 0.05; ///< running mean of the number of rounds
-    double n_rounds_ = 0;         ///< number of repeated rounds in the last window
-    Rollback last_;               ///< sums over the repeated rounds; the price of the last round
+    double rounds_lately_ = 0.05; ///< running mean of `n_rounds_` over windows
+    double n_rounds_ = 0;         ///< number of rounds of repeated runs in the last window
+    Rollback last_;               ///< sums over these rounds, and the price in the last one
     Caution caution_;
 };
 

@@ -10,8 +10,8 @@
 
 namespace carrom {
 
-/// Adds to `number` and returns its old value. The order of threads is random, so results may only
-/// be used as places in lists.
+/// Adds to `number` and returns its old value. The order of threads is random, so use the value
+/// only as an index in a list whose order has no effect.
 CARROM_DEVICE inline std::uint32_t fetch_add(std::uint32_t& number, std::uint32_t more) {
 #ifdef __CUDA_ARCH__
     return atomicAdd(&number, more);

@@ -50,8 +50,8 @@ template <class Rounds> __global__ void match(const Rounds rounds, int round) {
          i += gridDim.x * blockDim.x)
         rounds.match(round, i);
 }
-/// Runs all remaining rounds in one block. Its threads wait for each other, so that all of them
-/// read the same round size and the results of the previous part.
+/// Runs all remaining rounds in one block. Its threads wait for each other before each search and
+/// each match, so that all of them read the same round size and the results of all others.
 template <class Rounds> __global__ void finish_rounds(const Rounds rounds, int round) {
     for (;; ++round) {
         __syncthreads();

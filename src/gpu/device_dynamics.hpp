@@ -28,7 +28,7 @@ public:
     CARROM_DEVICE static constexpr bool has_fixed_bodies() { return false; }
     CARROM_DEVICE const MirrorSides<Arithmetic>& sides() const { return sides_; }
     /// Whether the disc may meet a wall in a micro-step that ends by `time`; if false, it cannot. A
-    /// disc that ends a micro-step within the band of a wall at rest also meets the wall.
+    /// disc also meets a wall if it flies towards it and ends a micro-step within 1e-8 radii of it.
     CARROM_DEVICE bool may_meet_wall(const DiscState& disc, double time) const {
         if (!this->space_.has_sides()) return false;
         const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sums on a device that do not depend on the order of terms. A term is a whole number of units
-// (core/exact_sum.hpp), and its four pieces of 32 bits are added to four integers. So threads can
-// add in any order, without carries between the integers; the host combines the pieces.
+// (core/exact_sum.hpp), and its pieces of 32 bits are added to up to four integers. So threads add
+// in any order, without carries between the integers; the host combines the pieces.
 //
 // Threads that all add to the same integers would wait for each other. So there are many copies,
 // the stripes, and a thread's number decides which one it uses.

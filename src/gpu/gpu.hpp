@@ -31,7 +31,7 @@ struct Gpu {
 /// The GPU of this program; null pointers if it was built without CUDA.
 Gpu& program_gpu();
 
-/// The value of Gpu::make_engine. It is compiled only in builds with kernels.
+/// The value of Gpu::make_engine in builds with kernels; other builds do not compile it.
 std::unique_ptr<Engine> make_gpu_engine_on(const DeviceKind& device, const SceneParameters& scene,
                                            StoredState state, const Communicator& communicator,
                                            const Tuning& tuning);

@@ -25,8 +25,8 @@
 
 namespace carrom {
 
-/// Resets the numbers that the host reads after a window. `forgets_speed` also resets the largest
-/// speed, after a sync.
+/// Resets the counters of a window, but not the totals since the stepper was made. `forgets_speed`
+/// also resets the largest speed, after a sync.
 template <class D> struct Begin {
     World<D> world;
     bool forgets_speed;
@@ -84,7 +84,7 @@ template <class D> struct Predict {
     }
 };
 
-/// Thread i handles eight discs, because nearly all of them have nothing to do.
+/// Thread i handles eight discs, because most discs have no candidate in this micro-step.
 template <class D> struct Collect {
     static constexpr std::uint32_t at_once = 8;
     World<D> world;
@@ -168,7 +168,7 @@ template <class D> struct Waiting {
     }
 };
 
-/// The disc with the lower id carries out the collision of a pair.
+/// The thread of the disc with the lower id carries out the collision of a pair.
 template <class D> struct Carry {
     World<D> world;
     int m;
@@ -220,8 +220,8 @@ private:
     }
 };
 
-/// Lists the nearby discs of a disc with a new state: those whose first candidate was with this
-/// disc, and those that now meet it before their first candidate.
+/// Lists nearby discs of a disc with a new state: discs whose first candidate was with this disc,
+/// and discs that now meet it before their first candidate.
 template <class D> struct Mark {
     World<D> world;
     int m;

@@ -36,19 +36,19 @@ struct SerialMachine {
     template <class Kernel> static void for_each(std::uint32_t n, const Kernel& kernel) {
         for (std::uint32_t i = 0; i < n; ++i) kernel(i);
     }
-    /// Calls the kernel `*n` times. On a GPU `n` is in device memory, and `most` limits `*n`.
+    /// Calls the kernel `*n` times. On a GPU `n` is in device memory. `*n` is at most `most`.
     template <class Kernel>
     static void for_each_of(const std::uint32_t* n, std::uint32_t /*most*/, const Kernel& kernel) {
         for_each(*n, kernel);
     }
-    /// Runs one round of kernels such as Waiting, on a GPU with all threads of the device.
+    /// Runs one round of kernels such as Waiting. A GPU uses all of its threads for this round.
     template <class Rounds>
     static void run_round(const Rounds& rounds, int round, std::uint32_t /*most*/) {
         const std::uint32_t n = *rounds.size(round);
         for (std::uint32_t i = 0; i < n; ++i) rounds.search(round, i);
         for (std::uint32_t i = 0; i < n; ++i) rounds.match(round, i);
     }
-    /// Runs all further rounds, on a GPU with one block of threads.
+    /// Runs all further rounds. A GPU uses one block of threads for them.
     template <class Rounds> static void finish_rounds(const Rounds& rounds, int round) {
         for (; *rounds.size(round) > 0; ++round) {
             rounds.begin(round);

@@ -21,7 +21,7 @@ struct DeviceWindow {
     Window window;
     double reach = 0; ///< reach of the window (reach_of)
     double speed = 0; ///< speed for which the reach is enough; a faster disc cuts the window short
-    double flown = 0; ///< flight time before the last sync that stress sums still lack
+    double flown = 0; ///< time of flights before the last sync, not yet in the stress sums
     double stress_scale = 0; ///< ExactSum::scale of the sums of stress; 0: no stress is summed
 };
 
@@ -53,7 +53,7 @@ public:
     virtual void take_stress(StressSums& sums) = 0;
 };
 
-/// Device memory in bytes: for each disc, and in addition for each run.
+/// Device memory in bytes: for each disc, and for each run in addition to its discs.
 constexpr std::uint64_t device_bytes_per_disc = 152, device_bytes_of_run = std::uint64_t{64} << 20;
 
 /// A kind of device; each way to compile the kernels has one.

@@ -47,7 +47,7 @@ struct DeviceCounters {
     std::uint32_t n_waiting[rounds_of_all + 2] = {};
     std::uint32_t is_cut = 0;  ///< whether discs are too fast for the rest of the window, 0 or 1
     std::uint32_t n_micro = 0; ///< completed micro-steps of the window
-    /// Numbers of candidates found and carried out since the run began
+    /// Numbers of candidates found and carried out since the stepper was made
     std::uint64_t n_candidates = 0, n_kept = 0;
     Largest squared_speed; ///< over all discs at the last sync and all collisions since
 };
@@ -61,7 +61,7 @@ template <class D> struct World {
     Window window;
     std::uint32_t n = 0;
     double squared_window_speed = 0; ///< square of the speed for which the reach is enough
-    double flown = 0;        ///< flight time before the last sync that stress sums still lack
+    double flown = 0;        ///< time of flights before the last sync, not yet in the stress sums
     double stress_scale = 0; ///< 0: no stress is summed
 
     DiscState* discs = nullptr;
@@ -70,7 +70,7 @@ template <class D> struct World {
     LocalIndex* partner = nullptr;
     std::int16_t *image_x = nullptr, *image_y = nullptr;
     std::uint8_t* micro = nullptr;
-    std::uint8_t* taken = nullptr;      ///< the disc takes part in an event of this micro-step
+    std::uint8_t* taken = nullptr;      ///< 1: the disc takes part in an event of this micro-step
     std::uint32_t* is_listed = nullptr; ///< whether the disc is in `changed`
     LocalIndex *active = nullptr, *changed = nullptr;
     LocalIndex* waiting[2] = {};

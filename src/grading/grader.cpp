@@ -14,10 +14,10 @@ namespace carrom {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-/// A few runs show how large roundings become. In a correct program they may be larger than in
-/// these runs by this factor.
+/// A few runs show how much roundings change the discs. In a correct program the changes may be
+/// larger than in these runs by this factor.
 constexpr double spread_margin = 1000;
-/// The same factor for a single step that begins from known numbers.
+/// The same factor as spread_margin for one step from the student's numbers of the step before.
 constexpr double step_margin = 20;
 /// Number of runs from the student's numbers; all but the first vary the last digits.
 constexpr std::uint64_t own_runs = 6;
@@ -306,7 +306,7 @@ bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     return true;
 }
 
-/// Compares the counters, also if the last step comes too early or too late.
+/// Compares the counters of collisions, even if the output's last step is too early or too late.
 bool Grader::hold_counters(const Aim& aim, std::int64_t step) {
     if (!steps_.has_counters() || (step < scene_.steps && steps_.next_line())) return true;
     points_.are_counters_right = false;

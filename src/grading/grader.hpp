@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares a student's lines with the rule (rule.hpp, docs/classroom.md), step by step on one rank.
 //
-// At first lines are compared with Carrom's own run. Each disc may differ by the tolerance
-// plus the present size of roundings. Once roundings are as large as discs, two correct programs
-// differ. Then each step is compared with the rule applied to the student's own step before. If
-// points are counted, grading continues after a step that is missing or unreadable. Memory: N
-// lines. Time after Carrom's own runs: six steps of the plain rule for each step.
+// At first lines are compared with Carrom's own run. Each disc may differ by the tolerance plus the
+// difference that roundings can have caused so far. Once this is a tenth of a radius, two correct
+// programs may differ. From then on a step is compared with the rule applied to the student's step
+// before. If points are counted, grading continues after a step that is missing or unreadable.
+// Memory: N lines. Time after Carrom's own runs: six steps of the plain rule for each step.
 #pragma once
 
 #include <algorithm>
@@ -33,9 +33,9 @@ public:
 
     /// Whether the student's lines have replaced Carrom's own runs, which are then not needed.
     bool has_left_runs() const { return has_left_runs_; }
-    /// Reads the lines of that step, if there are any, and compares them with the rule. `expected`
-    /// is empty once `has_left_runs()` is true. Returns whether to grade the next step, which may
-    /// be the one after the last.
+    /// Reads the lines of `step`, if there are any, and compares them with the rule. `expected` is
+    /// empty once `has_left_runs()` is true. Returns whether to grade the next step, which may be
+    /// the one after the last.
     bool grade(std::int64_t step, const ExpectedDiscs& expected);
     /// Whether no line has differed so far.
     bool is_right() const { return verdict_.empty(); }
@@ -51,7 +51,7 @@ private:
     struct Aim {
         std::vector<DiscState> discs;
         double clock = 0;
-        /// Allowed difference of each disc, by id; infinite if other roundings move the disc far
+        /// Allowed difference by id; infinite if other roundings can move the disc by 0.1 radii
         std::vector<double> allowed;
         std::vector<std::vector<DiscState>> others; ///< results of the runs with other roundings
     };
@@ -89,12 +89,12 @@ private:
     RuleSetting setting_;
     double tolerance_, unit_;
     StudentSteps steps_;
-    std::optional<SharedState> before_;     ///< the discs at the last graded step
-    std::optional<SharedState> own_before_; ///< discs of that step from the student's lines
+    std::optional<SharedState> before_;     ///< the run's discs at the last step with all lines
+    std::optional<SharedState> own_before_; ///< the student's discs at that step
     std::int64_t written_before_ = 0;
-    double unit_of_float_ = 0; ///< error of a step if the student's numbers are floats, else 0
+    double unit_of_float_ = 0; ///< bound of a step's error if the student's numbers are floats
     std::vector<double> digits_before_; ///< StudentLine::last_digit in the step before, by id
-    /// The finest last digit of all lines, in this step and in the step before
+    /// Unit of the finest last digit in the lines of this step, and of the step before
     double finest_ = 0, finest_before_ = 0;
     std::vector<bool> is_counter_unknown_;
     bool has_left_runs_ = false;

@@ -21,7 +21,7 @@ struct StudentLine {
     double x = 0, y = 0, vx = 0, vy = 0;
     double digits[4] = {}; ///< the unit of the last digit of x, y, vx, vy; 0 for a whole number
     double last_digit = 0; ///< unit of the last digit of the number with the fewest digits
-    /// unit of the last digit of the number with most digits; infinite if all are whole numbers
+    /// Unit of the last digit of the number with most digits; infinite if all are whole numbers
     double finest_digit = 0;
     bool has_counters = false;
     std::uint64_t pair_collisions = 0, wall_collisions = 0;

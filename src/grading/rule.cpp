@@ -50,7 +50,7 @@ bool sorts_otherwise(Mistake mistake) {
 
 } // namespace
 
-/// The part of the box that a disc sweeps in a micro-step.
+/// A rectangle that contains all of a disc during a micro-step, if the disc flies straight.
 struct PlainRule::Path {
     double x_low, x_high, y_low, y_high;
     const DiscState* disc;

@@ -18,7 +18,7 @@
 
 namespace carrom {
 
-/// One deviation from the rule; mistakes.hpp describes them.
+/// One deviation from the rule; `known_mistakes` in mistakes.cpp describes them.
 enum class Mistake {
     none,
     ties_by_higher_id,

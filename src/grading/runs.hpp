@@ -19,7 +19,7 @@ namespace carrom {
 struct ExpectedDiscs {
     std::vector<DiscState> discs;
     double clock = 0;
-    /// For each disc the largest difference of its numbers to another run; velocities are per step
+    /// For each disc the larger difference() of the other two runs from the first one
     std::vector<double> spread;
 };
 

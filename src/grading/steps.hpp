@@ -49,7 +49,7 @@ public:
         return is_whole_ && are_counters_in_place_ && !is_in_order_;
     }
 
-    /// The message that a required `step` is missing, or that steps go back; otherwise empty.
+    /// The message that a required `step` is missing, or that steps decrease; otherwise empty.
     std::string missing_problem(std::int64_t step) const;
     /// The message that the output has a line after the last step.
     std::string more_problem() const;

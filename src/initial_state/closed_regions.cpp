@@ -13,8 +13,8 @@ namespace carrom {
 
 namespace {
 
-/// Distance between points, relative to the smallest radius. It is below 2/3, so that no step
-/// between two free points crosses a segment, because one of these points would be blocked.
+/// Distance of neighbouring points in smallest radii. Below 2/3, no step between two free
+/// neighbours can cross a segment: one of the two would be so near to it that it is blocked.
 constexpr double spacing = 0.66;
 constexpr double most_points = 0x1p22;
 
@@ -52,7 +52,7 @@ public:
 
     bool are_several() const { return sizes_.size() > 1; }
     std::size_t n() const { return sizes_.size(); }
-    /// The number of the closed region that contains the position, or -1.
+    /// The number of the closed region that contains the position; -1 if there is none.
     std::int32_t closed_region(double x, double y) const {
         const std::int32_t region = region_of_[index(column_of(x), row_of(y))];
         const bool is_shut = region >= 0 && region != largest_ &&
@@ -90,7 +90,7 @@ private:
                 if (container.outside(x_of(column), y_of(row)) > 0)
                     region_of_[index(column, row)] = blocked;
     }
-    /// Blocks the points near a segment and near its images.
+    /// Blocks the points nearer than `distance` to a segment or to its periodic images.
     void block(const Segment& segment, double distance) {
         for (const double dx : {-box_.x, 0.0, box_.x})
             for (const double dy : {-box_.y, 0.0, box_.y}) {
@@ -117,8 +117,8 @@ private:
             }
     }
 
-    /// Assigns the next number to all points that are connected with point `first`. Returns the
-    /// number of these points.
+    /// Gives all points that are connected with point `first` the next region number. Returns how
+    /// many points these are.
     std::uint64_t fill(std::size_t first) {
         const auto number = static_cast<std::int32_t>(sizes_.size());
         std::uint64_t n_points = 0;
@@ -146,7 +146,7 @@ private:
         to_visit_.push_back(index(column, row));
     }
 
-    /// Sets the size of regions at open sides to 0, because their discs can leave.
+    /// Sets the size of regions at open sides to 0, so that they do not count as closed.
     void let_out(const Effects& effects) {
         const auto is_open = [&](std::size_t side) {
             return effects.boundaries[side].kind == BoundaryKind::open;
@@ -170,7 +170,7 @@ private:
     std::int64_t n_columns_ = 0, n_rows_ = 0;
     /// Number of the region of each point, by column, then row
     std::vector<std::int32_t> region_of_;
-    std::vector<std::uint64_t> sizes_; ///< number of points in each region
+    std::vector<std::uint64_t> sizes_; ///< number of points in each region; 0 at an open side
     std::vector<std::size_t> to_visit_;
     std::int32_t largest_ = 0;
 };

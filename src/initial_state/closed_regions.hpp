@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds discs that random insertion has placed in regions that fixed bodies separate from the other
-// discs, such as the inside of a polygon of segments. The density there differs from that of the
-// rest, which the author of a scene may not expect.
+// discs, such as the inside of a polygon of segments. The density there differs from the density
+// elsewhere, which the author of a scene may not expect.
 //
 // The box is covered with points that are two thirds of the smallest radius apart. A point is
 // blocked if the smallest disc there would overlap a fixed body by more than this distance, if the
@@ -20,12 +20,12 @@
 namespace carrom {
 
 struct ShutInDiscs {
-    std::uint64_t n_discs = 0; ///< discs in closed regions, except the largest region
+    std::uint64_t n_discs = 0; ///< number of discs in closed regions; the largest never counts
     std::uint64_t n_regions = 0;
 };
 
-/// Counts the discs in closed regions; ranks may have any of the discs. Finds nothing if the box
-/// would need more than four million points. **Collective.**
+/// Counts the discs in closed regions; `discs` are in any distribution over the ranks. Finds
+/// nothing if the box would need more than four million points. **Collective.**
 ShutInDiscs find_shut_in(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                          const Communicator& communicator);
 

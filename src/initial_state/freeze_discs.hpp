@@ -10,7 +10,7 @@
 namespace carrom {
 
 /// Makes some discs fixed bodies (set_frozen): discs whose centres lie in a region of
-/// `discs.freeze`, edges included, and those of a frozen group. The remaining discs get new ids
+/// `discs.freeze`, edges included, and all discs of a frozen group. The others get new ids
 /// from 0 on in the order of their old ids. Throws InputError on every rank if no disc freezes, or
 /// if all do. **Collective.**
 void freeze_discs(SceneParameters& scene, std::vector<InputDisc>& discs, const Communicator& ranks);

@@ -37,7 +37,7 @@ std::vector<InputDisc> discs_on_sites(const SceneParameters& scene,
     discs.reserve(last - first);
     const std::uint64_t stride = scene.effects.species.empty() ? 1 : mixing_stride(scene.n_discs);
     for (DiscId id = first; id < last; ++id) {
-        // The product cannot overflow, because ids are below 2^32
+        // The product cannot overflow 64 bits, because both factors are below 2^32
         const Point place = place_of(id * stride % scene.n_discs);
         discs.push_back({id, place.x, place.y, 0, 0});
     }
@@ -105,7 +105,7 @@ std::vector<InputDisc> generated_places(const SceneParameters& scene,
 
 void refuse_in_fixed_bodies(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                             const Communicator& communicator) {
-    const std::size_t most_named = scene.groups.empty() ? 5 : 1; // a group is moved as a whole
+    const std::size_t most_named = scene.groups.empty() ? 5 : 1; // a user moves a group as a whole
     const FixedBodies fixed_bodies(scene.box, scene.radius, scene.effects);
     if (!fixed_bodies.are_any()) return;
     const SpeciesTable species_table(scene.effects.species, scene.radius);

@@ -13,8 +13,8 @@ namespace carrom {
 
 namespace {
 
-// The limits of the number of a rank's proposals in a batch. With fewer proposals the exchange
-// takes most of the time; more proposals need much memory.
+// The smallest and the largest number of proposals in a batch, mean over ranks. With fewer
+// proposals the exchange takes most of the time; more proposals need much memory.
 constexpr double least_proposals = 1 << 14, most_proposals = 1 << 20;
 constexpr std::uint64_t most_rounds = 4096; ///< largest number of rounds of a batch
 /// A batch should place at most this share of the unplaced discs, because later proposals of a
@@ -65,7 +65,7 @@ std::optional<std::uint64_t> InsertionBatch::judge(std::vector<std::uint32_t>& u
 void InsertionBatch::take_out(std::vector<Notice> found, std::vector<std::uint32_t>& unplaced) {
     std::ranges::sort(found, {}, &Notice::id);
     const std::size_t n_marks = std::bit_ceil(64 * found.size());
-    std::vector<std::uint8_t> may_be_found(n_marks, 0); // by the last bits of ids
+    std::vector<std::uint8_t> may_be_found(n_marks, 0); // by id modulo n_marks
     for (const Notice& notice : found) may_be_found[notice.id % n_marks] = 1;
     std::erase_if(unplaced, [&](std::uint32_t id) {
         return may_be_found[id % n_marks] != 0 &&
@@ -73,7 +73,7 @@ void InsertionBatch::take_out(std::vector<Notice> found, std::vector<std::uint32
     });
 }
 
-/// Lists the proposals in the own strip that overlap no placed disc.
+/// Lists the proposals in this rank's strip that overlap no placed disc and no fixed body.
 void InsertionBatch::find_free() {
     free_.clear();
 #pragma omp parallel num_threads(n_threads_)
@@ -91,8 +91,8 @@ void InsertionBatch::find_free() {
     }
 }
 
-/// Lists the proposals that overlap a free proposal of the same round and have a lower id than it.
-/// They are listed even if they are themselves rejected because of other overlaps.
+/// Lists the proposals that overlap a free proposal of the same round that has a higher id. They
+/// are listed even if they are themselves rejected because of other overlaps.
 void InsertionBatch::find_rivals() {
     rivals_.clear();
     std::vector<Notice> images; // free proposals and their periodic images

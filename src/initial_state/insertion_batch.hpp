@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs many rounds of random_insertion.hpp together, with the result of one round after another.
+// Runs many rounds of random_insertion.hpp together, as if they ran one after another.
 //
 // When little free space is left, nearly all proposals overlap a disc that has been placed. The few
 // free proposals, and the proposals of the same round that overlap them, are sent to all ranks. All
@@ -24,8 +24,8 @@ public:
         : box_(box), communicator_(communicator), n_threads_(n_threads), placed_(placed) {}
 
     /// Places discs of `unplaced` and removes them from this list. Lists of different ranks have no
-    /// common discs; `n_left` is their total length. Returns the last round in which a place was
-    /// found, counted from `first_round`. **Collective.**
+    /// common discs; `n_left` is their total length. Returns the last round that placed a disc,
+    /// counted from `first_round`; nothing if none did. **Collective.**
     std::optional<std::uint64_t> judge(std::vector<std::uint32_t>& unplaced, std::uint64_t n_left,
                                        std::uint64_t first_round, std::uint64_t n_rounds);
 
@@ -35,8 +35,8 @@ public:
                                 std::uint64_t n_left) const;
 
 private:
-    /// The disc `earlier`, with a lower id, whose proposal overlaps that of disc `id` in a round.
-    /// The disc `id` is not placed in this round, unless `earlier` was placed in a previous one.
+    /// The proposals of discs `id` and `earlier`, which has the lower id, overlap in this round.
+    /// The disc `id` is not placed in this round, unless `earlier` was placed in a previous round.
     struct Rival {
         std::uint32_t round = 0, id = 0, earlier = 0;
 

@@ -10,8 +10,8 @@ namespace carrom {
 
 namespace {
 
-/// Ranks exchange about this many proposals at a time, because the sent and the received data each
-/// take as much memory as the proposals.
+/// Each rank sends about this many proposals at a time, because the sent and the received copies
+/// each take as much memory as the proposals themselves.
 constexpr double most_at_once = 1 << 16;
 
 } // namespace
@@ -50,7 +50,7 @@ std::vector<Notice> InsertionBox::gather(const std::vector<InputDisc>& given) co
     return all;
 }
 
-/// Makes the proposals `first` to `end` - 1 of this rank, numbered through all rounds.
+/// Makes this rank's proposals `first` to `end` - 1, numbered by round, then by disc.
 void InsertionBox::make_proposals(const Proposers& proposers, std::uint64_t first,
                                   std::uint64_t end, int n_threads, RawVector<Notice>& made) const {
     const std::size_t n = proposers.ids.size();
@@ -64,7 +64,7 @@ void InsertionBox::make_proposals(const Proposers& proposers, std::uint64_t firs
     }
 }
 
-/// Sends notices to the ranks that need them, and appends received ones to `concerning`. A rank
+/// Sends notices to the ranks that need them, and appends received notices to `concerning`. A rank
 /// does not send updates to itself. **Collective.**
 void InsertionBox::deliver(std::span<const Notice> notices, std::span<const Notice> updates,
                            int n_threads, RawVector<Notice>& concerning) const {

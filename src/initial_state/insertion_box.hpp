@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The box of random insertion: how positions are proposed, which discs overlap, and which ranks
-// need a position. Its x axis is along the box's longer side, which is cut into strips.
+// The box of random insertion: how positions are proposed, which discs overlap, which ranks need a
+// position. Its x axis is along the box's longer side, which is cut into one strip a rank.
 #pragma once
 
 #include <algorithm>
@@ -64,11 +64,11 @@ public:
         return box_.x / communicator_.size() * (communicator_.rank() + 1) + margin();
     }
 
-    /// Makes a grid that covers the strip and the margin around it.
+    /// Makes a grid over this rank's strip and its margins, for about `n_points` points.
     PointGrid grid(double n_points) const {
         return {strip_low(), strip_high(), box_.y, diameter_, n_points};
     }
-    /// Distance beyond which two placed discs cannot overlap.
+    /// Distance of two centres beyond which discs of any radius in the scene cannot overlap.
     double margin() const { return diameter_ * (1 + 1e-9); }
 
     std::size_t owner(double x) const {
@@ -91,8 +91,8 @@ public:
                 place(periods_.y, box_.y, unit_number(words[1]))};
     }
 
-    /// Calls `visit(rank)` for each rank whose strip is within the margin of `x` or one of its
-    /// images.
+    /// Calls `visit(rank)` for each rank whose strip is within margin() of `x`, or of one of the
+    /// periodic images of `x`.
     template <class Visit> void visit_concerned(double x, const Visit& visit) const {
         const std::size_t first = owner(x - margin()), last = owner(x + margin());
         for (std::size_t k = first; k <= last; ++k) visit(k);
@@ -131,16 +131,16 @@ public:
         return true;
     }
 
-    /// Returns the placed discs that this rank needs, from all ranks' `given`. **Collective.**
+    /// Returns the `given` discs of all ranks that this rank's strip needs. **Collective.**
     std::vector<Notice> gather(const std::vector<InputDisc>& given) const;
 
-    /// Makes all ranks' proposals, with all threads, and lists the proposals that this rank needs,
-    /// together with the `updates` of other ranks. **Collective.**
+    /// Each rank makes its proposals. Puts the proposals that this rank needs, and those `updates`
+    /// of other ranks that it needs, into `concerning`. **Collective.**
     void propose(const Proposers& proposers, std::span<const Notice> updates, int n_threads,
                  RawVector<Notice>& concerning) const;
 
     /// Calls `visit(place)` for the position of a notice and for each of its images near the box,
-    /// and stops when it returns true. A grid puts positions beyond its ends into its last cells.
+    /// and stops once `visit` returns true. A grid puts outside images into its outermost cells.
     template <class Visit> bool for_images(const Notice& notice, const Visit& visit) const {
         if (visit(Point{notice.x, notice.y})) return true;
         if (!periods_.are_any()) return false;
@@ -155,7 +155,7 @@ public:
         return false;
     }
 
-    /// Whether disc `id` with its centre at `at` overlaps another one.
+    /// Whether disc `id` with its centre at `at` overlaps the disc of `other`.
     bool overlaps(DiscId id, Point at, const Notice& other) const {
         const double dx = other.x - at.x, dy = other.y - at.y,
                      distance = species_.of(id).radius + species_.of(other.id).radius;
@@ -164,7 +164,7 @@ public:
 
 private:
     /// The position of a disc in a region, from two random numbers between 0 and 1. If a region
-    /// covers a whole period, discs may lie across its ends.
+    /// covers a whole period, discs may lie across the ends of the region.
     Point place_in(const StartRegion& region, double radius, Point numbers) const {
         const auto [x_low, y_low] = turned(axis_, region.x_low, region.y_low);
         const auto [x_high, y_high] = turned(axis_, region.x_high, region.y_high);

@@ -86,7 +86,7 @@ private:
 };
 
 /// Finds the smallest even number of rows with enough sites. It is even, because a box that is
-/// periodic along y needs this.
+/// periodic along y needs an even number.
 class RowSearch {
 public:
     RowSearch(const SceneParameters& scene, const Communicator& ranks)
@@ -108,7 +108,7 @@ public:
     }
 
 private:
-    /// The number with which the search begins: 90 % of half the rows without fixed bodies.
+    /// The number of pairs of rows that is tried first: 90 % of those needed without fixed bodies.
     std::uint64_t first_guess() const {
         const double area = scene_.area() / static_cast<double>(scene_.n_discs),
                      height = std::sqrt(area * per_row);

@@ -10,8 +10,8 @@
 namespace carrom {
 
 namespace {
-// Largest number of draws for a disc. Random insertion needs some 50 at a packing of 0.5, and jams
-// at 0.54.
+// Largest number of draws for one disc. On average a disc needs some 50 draws at a packing of 0.5;
+// random insertion jams at 0.54.
 constexpr std::uint64_t most_draws_of_a_disc = 1'000'000;
 constexpr std::uint64_t mean_draws_of_all = 500;
 } // namespace

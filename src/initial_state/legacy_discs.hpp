@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of the legacy generator, with exactly the same numbers as in the course program. It
-// draws with C's `rand` from a seed. It first draws all positions, x before y, uniform in [r, L-r],
-// and repeats a draw if discs overlap. Then each disc gets its speed, uniform in [L/(8r), L/4], and
-// its angle.
+// The discs of the legacy generator, with exactly the same numbers as in the course program. For
+// radius r and box edge L, it first draws all positions by C's `rand`, x before y, uniform in
+// [r, L-r], and repeats a draw if discs overlap. Then each disc gets its speed per step, uniform in
+// [L/(8r), L/4], and its angle.
 //
 // `rand` is glibc's function (its reentrant random_r with 128 bytes of state). Sine and cosine are
 // rounded correctly (core/rounded_sine.hpp), not by the C library. One rank draws, because each
-// number depends on the numbers before. With a grid of cells each draw takes O(1).
+// number depends on the numbers before. With a grid of cells, the time of a draw is O(1).
 #pragma once
 
 #include <cstdint>
@@ -34,12 +34,12 @@ private:
     random_data data_{};
 };
 
-/// All positions by id; nothing if the box is so full that a bounded number of draws is not
-/// enough.
+/// Positions of all discs in the order of ids; nothing if the box is so full that a bounded number
+/// of draws is not enough.
 std::optional<std::vector<Point>> legacy_positions(const SceneParameters& scene,
                                                    LegacyRandom& random);
 
-/// Disc `id` at `place`, with the next velocity drawn (per step). Call it in the order of ids.
+/// Disc `id` at `place`, with the next drawn velocity, per step. Call it in the order of ids.
 InputDisc legacy_disc(const SceneParameters& scene, LegacyRandom& random, DiscId id, Point place);
 
 } // namespace carrom

@@ -26,8 +26,8 @@ DiscReader::InParts on_threads(int n_threads) {
     };
 }
 
-/// The size of the scene's file of discs, found by rank 0, or 0 if the file is missing or a pipe
-/// and so cannot be read in parts. **Collective.**
+/// The size in bytes of the scene's file of discs, found by rank 0, or 0 if the file is missing or
+/// a pipe and so cannot be read in parts. **Collective.**
 std::uint64_t bytes_of_file(const SceneParameters& scene, const Communicator& communicator) {
     std::uint64_t n_bytes = 0;
     if (communicator.is_root()) {
@@ -59,8 +59,8 @@ bool is_each_once(const std::vector<InputDisc>& discs, const Slab& share) {
     return discs.size() == share.size() && std::ranges::find(seen, false) == seen.end();
 }
 
-/// Reads the file by parts. Returns nothing if there is an error in it, or if not all ranks can
-/// read it. **Collective.**
+/// Each rank reads its part of the file. Returns nothing if the file has an error, or if not all
+/// ranks can read it. **Collective.**
 std::optional<std::vector<InputDisc>> read_on_all(const SceneParameters& scene,
                                                   const Communicator& communicator, int n_threads) {
     const std::uint64_t n_bytes = bytes_of_file(scene, communicator);

@@ -19,7 +19,7 @@ namespace carrom {
 /// Number of discs that a rank reads or makes before it sends them to other ranks.
 inline constexpr std::size_t discs_at_once = std::size_t{1} << 16;
 
-/// The ids of the discs that a rank starts with.
+/// This rank's share of all ids: one range for each rank, about equally long, in their order.
 inline Slab share_of(const SceneParameters& scene, const Communicator& communicator) {
     return slab_of_rank(communicator.rank(), scene.n_discs, communicator.size());
 }

@@ -11,10 +11,10 @@ namespace carrom {
 
 namespace {
 
-/// A gap counts as wide enough if it is narrower than a disc only by this share
+/// A gap that is narrower than a diameter by less than this share of it counts as wide enough
 constexpr double rounding = 1e-9;
 
-/// A segment with a rounded border of some width. A fixed disc is a segment of length 0.
+/// All points within `radius` of a segment. A fixed disc has a segment of length 0.
 struct Body {
     Segment line;
     double radius = 0;
@@ -46,7 +46,7 @@ Segment shortest(const Segment& a, const Segment& b) {
     return best;
 }
 
-/// Fixed bodies, and the images of fixed bodies that can narrow a gap in the box.
+/// Fixed bodies, and their periodic images that lie less than `width` outside of the box.
 std::vector<Body> bodies_of(const SceneParameters& scene, double width) {
     const Box& box = scene.box;
     const bool is_x = scene.effects.is_periodic_x(), is_y = scene.effects.is_periodic_y();
@@ -70,7 +70,7 @@ std::vector<Body> bodies_of(const SceneParameters& scene, double width) {
     return bodies;
 }
 
-/// Adds lines from ends of fixed bodies to walls that are closer than `width`.
+/// Adds lines from ends of fixed bodies to walls at rest, across gaps narrower than `width`.
 void add_walls(const SceneParameters& scene, const std::vector<Body>& bodies, double width,
                std::vector<Segment>& lines) {
     const Box& box = scene.box;

@@ -4,7 +4,7 @@
 // If two fixed bodies are closer than the disc's diameter, every point of the line between their
 // nearest points is within a radius of one body, so no disc's centre crosses the line. So these
 // lines and the fixed bodies divide the box into regions that a disc cannot leave. A sweep along x
-// finds the pairs. Their number is about the number of bodies times the bodies in a strip.
+// finds the pairs. It compares a body only with bodies less than a diameter away along x.
 #pragma once
 
 #include <vector>

@@ -53,7 +53,7 @@ public:
         if (refused_places_) refused_places_->prefetch({notice.x, notice.y});
     }
 
-    /// Returns the own strip's discs and removes them from here. Then no disc can be added.
+    /// Returns the discs of this rank's strip and deletes all others. Then no disc can be added.
     std::vector<InputDisc> take_own() {
         refused_places_.reset();
         grid_.reset();

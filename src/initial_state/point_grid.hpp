@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Points in square cells at least `reach` wide, so that all points within `reach` of a position lie
 // in its cell or in the eight cells around. The cells are linked lists, so adding a point is O(1).
-// Memory: 4 bytes for each point and each cell.
+// Memory: 4 bytes for each point, and 4 for each cell.
 //
 // The grid stores only the points' numbers. The caller keeps the coordinates and decides which
-// points are near. Clearing takes time for each point, not for each cell.
+// points are near. Clearing takes a time proportional to the number of points, not of cells.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ namespace carrom {
 
 class PointGrid {
 public:
-    /// Covers [x_low, x_high] x [0, height]. Cells are so large that there are about two for each
-    /// of `n_points`, or fewer if `reach` is larger.
+    /// Covers [x_low, x_high] x [0, height]. There are about two cells for each of `n_points`
+    /// points, or fewer, because cells are at least `reach` wide.
     PointGrid(double x_low, double x_high, double height, double reach, double n_points)
         : x_low_(x_low) {
         const double width = std::max(x_high - x_low, reach);
@@ -60,7 +60,7 @@ public:
         }
     }
 
-    /// Whether `is_hit(number)` holds for a point near `place`; stops at the first such point.
+    /// Whether `is_hit(number)` is true for a point in the 9 cells around `place`.
     template <class IsHit> bool any_near(Point place, const IsHit& is_hit) const {
         const std::uint64_t c = column(place.x), r = row(place.y);
         const std::uint64_t last_column = std::min(c + 1, columns_ - 1),

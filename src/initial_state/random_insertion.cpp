@@ -23,11 +23,11 @@ namespace carrom {
 
 namespace {
 
-/// Insertion starts again after this many rounds that place no disc
+/// Insertion starts again after this many rounds in succession that place no disc
 constexpr std::uint64_t most_idle_rounds = 10000;
 constexpr std::uint64_t most_starts = 10;
 
-/// While a larger share of proposals is accepted, each round has an exchange of its own.
+/// While a larger share of proposals is accepted, ranks exchange proposals in every round.
 constexpr double most_placed_in_batches = 0.25;
 
 class Insertion {
@@ -45,7 +45,7 @@ public:
         for (const Species& one : scene_.effects.species) radii.push_back(one.radius);
         std::sort(radii.begin(), radii.end(), std::greater<>());
         radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
-        // The largest discs are placed first, because few places among smaller ones are free.
+        // The largest discs are placed first, because few gaps between smaller discs can hold them.
         for (std::size_t first = 0, end = 0; first < radii.size(); first = end) {
             while (end < radii.size() && is_placed_with(radii[end], radii[first], radii.size()))
                 ++end;
@@ -55,14 +55,14 @@ public:
     }
 
 private:
-    /// Whether discs of this radius are placed together with the largest ones. If there are few
-    /// radii, each is placed separately; many are grouped, because a group needs a round or more.
+    /// Whether discs of `radius` are placed together with those of radius `largest`. Few radii are
+    /// placed one by one; many are grouped, because each group needs at least one round.
     static bool is_placed_with(double radius, double largest, std::size_t n_radii) {
         constexpr std::size_t few_radii = 8;
         return radius == largest || (n_radii > few_radii && radius > 0.9 * largest);
     }
 
-    /// Places all discs of these radii; returns false if they have jammed. **Collective.**
+    /// Places the discs with radii in [smallest, largest]; false if these jam. **Collective.**
     bool place_all_of(double smallest, double largest) {
         const auto [first, last] = slab_of_rank(communicator_.rank(), scene_.n_discs,
                                                 communicator_.size());
@@ -87,7 +87,7 @@ private:
         bool are_over() const { return n_left == 0 || n_idle >= most_idle_rounds; }
     };
 
-    /// Runs one round after another while many proposals are accepted. **Collective.**
+    /// Runs single rounds while each places at least 25 % of the discs left. **Collective.**
     void judge_one_by_one(Rounds& rounds) {
         proposal_grid_.emplace(box_.grid(box_.share()));
         for (double share_placed = 1;
@@ -193,7 +193,7 @@ private:
         });
     }
 
-    /// Adds the placed discs that other ranks also need to the updates.
+    /// Appends to `updates_` those placed discs that other ranks need, too.
     void record_updates(std::span<const Notice> found) {
         for (const Notice& notice : found) {
             std::size_t n_concerned = 0;
@@ -209,7 +209,7 @@ private:
     PlacedDiscs placed_;
     /// A grid of a round's proposals, while rounds run one after another
     std::optional<PointGrid> proposal_grid_;
-    std::vector<std::uint32_t> unplaced_; ///< ranks have different discs
+    std::vector<std::uint32_t> unplaced_; ///< ids of this rank's discs without a place
     RawVector<Notice> proposals_;
     std::vector<Notice> updates_; ///< discs placed in the last round that other ranks need, too
 };

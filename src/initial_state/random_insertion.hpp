@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds random positions without overlaps on all ranks, the same for any number of ranks.
 //
-// In round k every disc without a position proposes one, uniform in [r, L-r]^2, as a function of
-// (seed, id, k) alone. The proposal is rejected if it overlaps a placed disc, or a proposal of the
+// In round k every disc without a position proposes one, uniform where its centre may lie, as a
+// function of (seed, id, k). It is rejected if it overlaps a placed disc, or a proposal of the
 // same round with a lower id. Otherwise the disc is placed there. A proposal is tested by the rank
 // whose strip of x contains it; this rank also gets all proposals within a diameter of its strip. A
 // packing of 0.3 takes some 150 rounds and 3 proposals a disc; 0.5 takes 10,000 rounds and 66

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two bit maps of small squares, which reject most proposals of random insertion with one read.
-// When little free space is left, nearly all proposals lie well inside a placed disc.
+// Two bit maps that spare random insertion most tests of pairs, by one read of memory each. When
+// little free space is left, nearly all proposals lie well inside a placed disc.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ public:
         words_.assign(static_cast<std::size_t>(n_columns_) * words_per_column_, 0);
     }
 
-    /// Marks the squares inside the circle around a placed disc in which no other centre may lie.
+    /// Marks the squares that lie wholly in the circle around `place` in which no centre may lie.
     /// Several threads may call this at the same time.
     void add(Point place, double radius) {
         const double reach = (radius + smallest_radius_) * per_length_ * (1 - margin);
@@ -53,8 +53,8 @@ public:
         }
     }
 
-    /// Returns true only if a disc of at least the smallest radius overlaps a placed disc at this
-    /// position. If false, it may overlap or not.
+    /// Returns true only if every disc of at least the smallest radius would overlap a placed disc
+    /// at this position. If it returns false, a disc may overlap or not.
     bool holds(Point place) const {
         const std::uint64_t* const word = word_of(place);
         return word && (*word >> (row_of(place) % 64) & 1) != 0;
@@ -89,7 +89,7 @@ private:
         std::uint64_t* const words = words_.data() +
                                      static_cast<std::size_t>(column) * words_per_column_;
         for (std::int64_t row = first_row; row < end_row;) {
-            // The squares in one word
+            // The squares from `row` up to `end` have their bits in one word
             const std::int64_t end = std::min(end_row, (row / 64 + 1) * 64);
             const std::uint64_t bits = ~std::uint64_t{0} >> (64 - (end - row)) << (row % 64);
             std::atomic_ref word(words[row / 64]);
@@ -105,8 +105,8 @@ private:
     std::vector<std::uint64_t> words_;
 };
 
-/// The surroundings of a few points, in a hash table. `may_be_near` is true for all positions near
-/// one of the points, and for few other positions.
+/// The surroundings of a few points, in a hash table. `may_be_near` is true for all positions
+/// within `reach` of a point, and for few others.
 class NearFew {
 public:
     NearFew(std::size_t n_points, double reach) : per_length_(1 / (reach * (1 + 1e-9))) {
@@ -127,8 +127,8 @@ public:
     }
 
 private:
-    /// The number of a cell, without std::floor. Points lie at most one reach outside of the box,
-    /// so one positive offset is enough.
+    /// The column or row of a cell, without std::floor. Points lie at most one reach outside of the
+    /// box, so adding 2 cells makes all numbers positive.
     std::int64_t cell(double length) const {
         return static_cast<std::int64_t>(length * per_length_ + 2);
     }

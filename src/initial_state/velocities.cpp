@@ -18,7 +18,7 @@ Velocity drawn_velocity(const SceneParameters& scene, DiscId id) {
     const double speed = scene.velocities == VelocityKind::maxwell
                              ? std::sqrt(random_exponential(random))
                              : std::numbers::sqrt3 * random.uniform();
-    // A box that is taller than wide has the gas of the turned box, so its velocities are turned.
+    // A box that is taller than wide has the same gas as the turned box, so velocities are turned.
     const auto [vx, vy] = turned(longer_axis(scene.box), speed * direction.x, speed * direction.y);
     return {vx, vy};
 }
@@ -47,7 +47,7 @@ void add_streams(const SceneParameters& scene, std::vector<InputDisc>& discs) {
 namespace {
 
 /// Momentum and energy of discs. Masses are divided by the heaviest one, so that sums of any masses
-/// stay in range.
+/// stay in the range of doubles.
 class Motion {
 public:
     Motion(const SceneParameters& scene, const std::vector<InputDisc>& discs,

@@ -5,11 +5,11 @@
 //
 // "maxwell": the Maxwell distribution in two dimensions; both components are normal. The speed
 // is sqrt(E), with E exponential of mean 1. "uniform": isotropic directions, speeds uniform in
-// [0, sqrt(3)]. Both distributions have the root mean square 1. A drawn sample has a random
+// [0, sqrt(3)]. Both distributions have the root mean square speed 1. A drawn sample has a random
 // error of its energy and a random total momentum, which would last for the whole run. So the
 // centre of mass is brought to rest along periodic axes, where no wall would ever stop it, and
-// speeds are scaled to the scene's energy. Sums are exact, so the bits do not depend on the
-// number of ranks.
+// speeds are scaled to the scene's energy. Sums are exact, so the bits do not depend on the number
+// of ranks.
 #pragma once
 
 #include <vector>
@@ -27,11 +27,11 @@ struct Velocity {
     friend bool operator==(const Velocity&, const Velocity&) = default;
 };
 
-/// The velocity drawn for disc `id`; the root mean square of the distribution is 1.
+/// The velocity drawn for disc `id`; the distribution has the root mean square speed 1.
 Velocity drawn_velocity(const SceneParameters& scene, DiscId id);
 
-/// The velocity that streams add to a disc at `place`: the sum over all regions that contain it,
-/// edges included.
+/// The velocity that streams add to a disc at `place`: the sum over all streams whose region
+/// contains it, edges included.
 Velocity stream_velocity(const SceneParameters& scene, Point place);
 
 /// Adds the velocities of streams, and of the flow between sheared sides, to all discs. Discs must

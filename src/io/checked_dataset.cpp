@@ -29,8 +29,8 @@ bool is_known_type(hid_t type) {
            (kind == H5T_STRING && H5Tis_variable_str(type) == 0);
 }
 
-/// Checks the segments of a recording, the files that contain its numbers: each must be as large
-/// as its rows need.
+/// Throws unless all segments of a recording, the files that contain its numbers, exist, lie below
+/// the recording's folder, are as large as their rows need, and together have all rows.
 void check_segments_of(const Dataset& dataset, hid_t creation, const std::string& name,
                        std::size_t bytes_per_number) {
     std::size_t n_parts = 0;
@@ -57,7 +57,7 @@ void check_segments_of(const Dataset& dataset, hid_t creation, const std::string
         throw FileError(name + " has other parts than this program writes");
 }
 
-/// Limits the size of chunks: HDF5 allocates a whole chunk even if little of it is read.
+/// Throws if chunks are too large, because HDF5 allocates a whole chunk to read a part of it.
 void check_chunk_of(hid_t creation, const std::string& name, std::size_t bytes_per_number) {
     std::array<hsize_t, H5S_MAX_RANK> sizes{};
     const int rank = checked(H5Pget_chunk(creation, H5S_MAX_RANK, sizes.data()), name);
@@ -66,15 +66,15 @@ void check_chunk_of(hid_t creation, const std::string& name, std::size_t bytes_p
     if (bytes > largest_chunk) throw FileError(name + " has larger chunks than 256 MiB");
 }
 
-/// Upper limits: files have some dozen links, and files of tables have one for each column.
+/// Limits for links and nested groups. Carrom's files have dozens of links, or one per column.
 constexpr std::size_t most_objects = 100000, deepest_group = 16;
 
-/// Returns the result of a call. If the call has failed, reports that the file is damaged.
+/// Returns the result of a call. Throws FileError "is damaged" if the call has failed.
 template <class Result> Result sound(Result result, const std::string& name) {
     return checked(result, "is damaged: " + name);
 }
 
-/// Adds the files that a data set names as its parts; throws if it has external storage.
+/// Adds the names of the files that a virtual data set joins; throws if it has external storage.
 void add_parts_of(hid_t dataset, const std::string& name, std::set<std::string>& parts) {
     const Properties creation(sound(H5Dget_create_plist(dataset), name));
     if (H5Pget_external_count(creation.id()) != 0)
@@ -89,7 +89,7 @@ void add_parts_of(hid_t dataset, const std::string& name, std::set<std::string>&
     }
 }
 
-/// The names of all files that virtual data sets in `file` have as parts. A loop over a list of
+/// The names of all files that virtual data sets in `file` join. A loop over a list of
 /// groups replaces recursion, so that the stack does not grow with the file. Soft links are
 /// skipped, because their targets are also found through hard links.
 std::set<std::string> parts_named_in(hid_t file) {
@@ -146,7 +146,7 @@ void refuse_other_files(hid_t file, const std::string& path) {
         if (std::error_code error; !std::filesystem::exists(part, error) && !error)
             continue; // a missing part is reported by the function that needs it
         try {
-            check_heaps(part); // the part must be a plain file
+            check_heaps(part); // fails unless the part is a plain file
             const File opened(sound(H5Fopen(part.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), name));
             if (!parts_named_in(opened.id()).empty())
                 throw FileError("has numbers in further files");

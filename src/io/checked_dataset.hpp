@@ -15,9 +15,9 @@ namespace carrom::h5 {
 /// The lengths that a data set must have along its axes; an empty value allows any length.
 using Shape = std::vector<std::optional<hsize_t>>;
 
-/// Opens a data set for reading. It must have the given shape, if there is one, and contain numbers
-/// or a text of fixed length. Its bytes must lie in this file, or in large enough segments below
-/// this file's folder. Throws FileError otherwise.
+/// Opens a data set for reading. It must have the shape, if one is given, and contain numbers of 4
+/// or 8 bytes or texts of fixed length. Its bytes must lie in this file, or in large enough
+/// segments below this file's folder. Throws FileError otherwise.
 Dataset open_checked(hid_t parent, const std::string& name,
                      const std::optional<Shape>& shape = std::nullopt);
 
@@ -32,8 +32,8 @@ void refuse_other_files(hid_t file, const std::string& path);
 /// The number of entries of an ascending column that are <= `last`.
 std::uint64_t count_up_to(hid_t file, const std::string& path, std::int64_t last);
 
-/// Throws FileError if the file is too small for the number of bytes that the data set's header
-/// gives, because that number of bytes is allocated.
+/// Throws FileError if the data set has fewer bytes in the file than its size needs after the best
+/// compression, because readers allocate memory for the whole size.
 void check_storage(const Dataset& dataset, const std::string& name);
 
 /// Returns a whole column. Throws FileError.

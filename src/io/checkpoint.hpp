@@ -8,10 +8,10 @@
 // (H5MD; positions at the time of the step, in single precision). /carrom/checksums has checksums
 // of all bytes (checksums.hpp).
 //
-// Rank 0 makes the file and reserves its space on disk. Then each rank writes its share of ids
-// through HDF5 and MPI-IO; reading works in the same way. Cost: 80 bytes a disc on disk; a disc of
-// another rank's share is sent once; 8 bytes a disc of memory, 80 more for collective transfers. A
-// further column (core/side_columns.hpp) takes 8 bytes a disc on disk and 24 of memory.
+// Rank 0 makes the file and reserves its space on disk. Then ranks write discs by ranges of ids, at
+// places that HDF5 reports, or together through MPI-IO. Every rank reads its range through MPI-IO.
+// Cost for each disc: 80 bytes on disk; 8 bytes of memory, 80 more for collective transfers; it is
+// sent once if another rank writes it. A side column adds 8 bytes on disk, 24 of memory.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,7 @@ struct CheckpointHeader {
     std::vector<Species> species; ///< stored only if species come from a file of discs: the
                                   ///< scene's text does not contain them
     SideColumnSet columns;        ///< columns in addition to the states; part of the state hash
-    RecordedSystem shown;         ///< H5MD metadata for other programs; Carrom does not read it
+    RecordedSystem shown;         ///< H5MD metadata to write; a restart does not read it
 
     Box box() const { return {box_size, box_height}; }
     void set_box(const Box& box) { box_size = box.x, box_height = box.y; }
@@ -69,19 +69,19 @@ struct CheckpointHeader {
     }
 };
 
-/// Describes the difference between the run `there` and the present one; empty if
-/// there is none. Called on rank 0.
+/// Describes the difference between the run `there`, which an existing file describes, and the
+/// present run; empty if there is none. Called on rank 0.
 using DifferenceFrom = std::function<std::string(const CheckpointHeader& there)>;
 
 /// Settings for writing the data of discs.
 struct WriteSettings {
-    int n_threads = 1;          ///< number of threads that pack; a further thread writes
+    int n_threads = 1;          ///< additional threads, which convert discs to bytes
     bool is_collective = false; ///< whether MPI-IO chooses ranks that write for all (aggregators)
 };
 
 /// Writes `discs`, in any distribution over ranks, as a whole file or not at all: under another
 /// name, then synced to disk and renamed. `columns` are in the order of `discs`, if the header has
-/// any. Fills in the header's counters and hash. If any rank fails, every rank throws
+/// any. Computes the header's counters and hash itself. If any rank fails, every rank throws
 /// CollectiveError, exit code 4, and an older file of that name is unchanged. **Collective.**
 void write_checkpoint(const std::string& path, CheckpointHeader header,
                       std::span<const DiscState> discs, const Communicator& communicator,

@@ -28,7 +28,7 @@ template <class SomeFrame, class Visit> void visit_periods(SomeFrame& frame, con
     visit("period_y", frame.periods.y);
 }
 
-/// Visits the offset and the speed of the row of images above, for boxes with sheared sides.
+/// Visits the offset and the speed of the periodic images above the box, for sheared sides.
 template <class SomeFrame, class Visit> void visit_images(SomeFrame& frame, const Visit& visit) {
     visit("image_offset", frame.periods.offset);
     visit("image_speed", frame.periods.speed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contents of a checkpoint except the columns of discs (disc_columns.hpp), as tables over which
-// writer, reader and comparison loop.
+// Lists of a checkpoint's values and of its columns for measurements, over which writer and reader
+// loop. The columns of the state are in disc_columns.hpp.
 #pragma once
 
 #include <array>
@@ -55,7 +55,7 @@ struct SampleColumn {
     const char* path;
     double FirstPlace::* field;
     bool StoredSamples::* is_there;
-    double most; ///< largest valid value; in units of box edges if `in_sides`
+    double most; ///< largest valid |value|; in units of the longer box edge if `in_sides`
     bool in_sides = false;
 };
 inline constexpr double largest_double = std::numeric_limits<double>::max();
@@ -77,7 +77,7 @@ inline constexpr std::array<SampleColumn, 8> sample_columns = {
 hid_t type_of(const StateColumn& column);
 
 void write_header(hid_t group, const CheckpointHeader& header);
-/// Reads a header without species. Throws FileError if something is missing or of another kind.
+/// Reads a header without species. Throws FileError if a value is missing or of the wrong type.
 CheckpointHeader read_header(hid_t file);
 /// Write and read species as one column each for counts, radii and masses, or nothing if there are
 /// none. Both throw FileError.
@@ -86,7 +86,7 @@ std::vector<Species> read_species(hid_t file, const std::string& path, std::uint
 
 /// Writes the description of a recording's run, so that no other run can continue the recording:
 /// the scene's text as in checkpoints, and the species from a file of discs. Writes nothing if
-/// `run` has no text. Throws FileError.
+/// `run` has no scene text. Throws FileError.
 void write_recorded_run(hid_t file, const CheckpointHeader& run);
 /// Throws FileError if the file describes its run and `difference_from` finds a difference.
 void check_recorded_run(hid_t file, const DifferenceFrom& difference_from);

@@ -27,7 +27,7 @@ std::vector<FoundFile> find_checkpoints(const std::string& folder);
 /// Whether the path has the form that `checkpoint_path` returns.
 bool is_named_as_checkpoint(const std::string& path);
 
-/// Makes the folder if it does not exist. Returns the problem if it is not writable.
+/// Makes the folder if it does not exist. Returns the problem if no file can be made there.
 WriteProblem write_problem_of_folder(const std::string& folder);
 
 } // namespace carrom

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // First rank 0 reads a file's metadata in a child process, because HDF5 may crash on forged
 // metadata. Then rank 0 checks all bytes except the data of discs by a checksum, so that HDF5 uses
-// only checked bytes on all ranks. Each rank checks and reads its share of these data by H5Dread
-// through MPI-IO.
+// only checked bytes on all ranks. Each rank checks and reads its share of the discs' data by
+// H5Dread through MPI-IO.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -88,7 +88,7 @@ StoredSamples samples_of(hid_t file, const Checksums& sums) {
     return samples;
 }
 
-/// Every data set of discs must be there, have its checksum and a row for each disc.
+/// Throws unless every data set of discs exists, has a checksum, and has a row for each disc.
 void check_disc_data(const Contents& contents) {
     std::vector<std::string> wanted;
     for (const StateColumn& column : disc_columns) wanted.push_back(path_of(column));
@@ -139,7 +139,7 @@ Contents contents_of(const std::string& path) {
     return contents;
 }
 
-/// Checks and reads the contents. Errors of HDF5 become "is damaged" followed by HDF5's text.
+/// Checks and reads the contents. Puts "is damaged: " before errors that do not begin with "is ".
 Contents inspected_contents(const std::string& path) {
     try {
         return contents_of(path);
@@ -200,7 +200,7 @@ public:
         check_numbers();
     }
 
-    /// Reads this rank's rows of a data set, 8 bytes each. Not collective; throws FileError.
+    /// Reads rows of 8 bytes of a data set, from row `begin` on. Not collective; throws FileError.
     template <class Number>
     void read(const std::string& path, std::span<Number> numbers, std::uint64_t begin,
               hid_t type) const {
@@ -263,7 +263,7 @@ DiscStates read_discs(const WholeFile& file, const Slab& share) {
     return discs;
 }
 
-/// Throws FileError.
+/// Reads the samples of the discs in `share`, if the file has any. Throws FileError.
 std::vector<FirstPlace> read_places(const WholeFile& file, const Slab& share) {
     const StoredSamples& samples = file.contents.samples;
     if (!samples.have_first_places && !samples.have_images) return {};

@@ -40,7 +40,7 @@ h5::Group create_frame(hid_t parent, const char* name, const CheckpointHeader& h
     return group;
 }
 
-/// Makes the data sets of discs whose paths begin with `path`.
+/// Makes the data sets of those `targets` whose paths in the file begin with `path`.
 void create_columns(hid_t file, std::string_view path, const std::vector<DiscTarget>& targets,
                     hsize_t n_discs) {
     for (const DiscTarget& target : targets) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All ranks write the data of discs (checkpoint.hpp). The places of data sets in the file are
+// Ranks share the writing of discs (checkpoint.hpp). The places of data sets in the file are
 // fixed, so writing never changes HDF5's metadata. Each rank's pieces begin at a page boundary,
 // because caches of different nodes are not coherent.
 //
@@ -64,7 +64,7 @@ private:
     struct sigaction before_{};
 };
 
-/// This rank's packed rows, in one buffer for each target.
+/// This rank's rows as bytes of the file, in one buffer for each data set.
 struct Batch {
     std::uint64_t first = 0, n_rows = 0;
     std::vector<std::vector<std::byte>> buffers;
@@ -73,7 +73,7 @@ struct Batch {
 /// This rank's access to the file. It stores its first failure, and writes nothing afterwards.
 class RankWriter {
 public:
-    /// A rank that is not a writer opens no file. **Collective.**
+    /// For independent transfers only writers keep the file open. **Collective.**
     RankWriter(const std::string& path, const std::vector<DiscTarget>& targets, bool is_collective,
                bool is_writer, const Communicator& communicator)
         : path_(path), targets_(targets), communicator_(communicator),
@@ -89,7 +89,7 @@ public:
         });
     }
 
-    /// Writes a batch. Not collective, but must be called by the thread that may call MPI.
+    /// Writes a batch at its place in the file, if no earlier write failed. Not collective.
     void write(const Batch& batch) {
         if (!failure_.empty()) return;
         try {
@@ -172,9 +172,9 @@ void add(std::span<const DiscState> discs, const SideOfPieces& side, StateSums& 
     });
 }
 
-/// Converts a piece to the targets' bytes and appends them to the batch; threads share this work.
-/// Meanwhile this thread, the only one that may call MPI, calls `first_of_all`. Threads that wait
-/// sleep, because ranks may share cores.
+/// Converts a piece's discs to the targets' bytes, appends these to the batch, and adds to `sums`.
+/// New threads share this. The calling thread first calls `first_of_all`, which writes another
+/// batch, and then takes part.
 template <class Act>
 void pack(std::span<const DiscState> piece, std::uint64_t first, const SideOfPieces& side,
           const std::vector<DiscTarget>& targets, Batch& batch, StateSums& sums, int n_threads,
@@ -222,7 +222,7 @@ struct NumberOfDisc {
     double number = 0;
 };
 
-/// Sends each disc's numbers to the rank whose pieces have the disc. **Collective.**
+/// Sends each disc's side columns to the rank whose pieces contain the disc. **Collective.**
 SideOfPieces in_pieces(std::span<const DiscState> discs, const SideColumnSet& wanted,
                        const SideSpans& spans, std::uint64_t n_discs,
                        const Communicator& communicator) {
@@ -299,7 +299,7 @@ void write_checkpoint(const std::string& path, CheckpointHeader header,
         create_structure(partial.path(), header, samples, targets);
         reserve(partial.path());
     });
-    // Numbers in addition to the states are distributed over the ranks, by pieces of ids.
+    // Side columns and samples are distributed over all ranks, so all ranks must be writers.
     const bool have_numbers = header.columns != SideColumnSet{} || samples.have_first_places ||
                               samples.have_lengths || samples.have_velocities ||
                               samples.have_images;

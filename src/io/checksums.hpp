@@ -40,7 +40,7 @@ struct ByteRange {
     std::uint64_t begin = 0, end = 0;
 };
 
-/// Computes the XXH3-128 of bytes in several pieces.
+/// Computes the XXH3-128 of bytes that are added in several pieces.
 class Hasher {
 public:
     Hasher();
@@ -67,9 +67,9 @@ struct DiscData {
 struct Checksums {
     std::vector<DiscData> data;
     StateHash others; ///< checksum of all other bytes of the file
-    ByteRange place;  ///< where the text is in the file
+    ByteRange place;  ///< where the text of checksums is in the file
 
-    /// Returns the text. Its length does not depend on the checksums.
+    /// Returns the text of checksums. Its length does not depend on their values.
     std::string text() const;
     /// The ranges of bytes that the checksum `others` does not cover.
     std::vector<ByteRange> left_out() const;
@@ -89,7 +89,7 @@ bool has_traces_of_checkpoint(const std::string& path);
 StateHash checksum_of_others(const std::string& path, std::vector<ByteRange> left_out);
 
 /// The part of a data set's checksum that comes from this rank's rows. The rows are read through
-/// the file's driver. Not collective; throws FileError.
+/// HDF5, with the driver that opened the file. Not collective; throws FileError.
 StateHash share_of_checksum(hid_t dataset, const DiscData& data, const Communicator& communicator);
 
 } // namespace carrom

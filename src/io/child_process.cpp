@@ -20,10 +20,10 @@ namespace carrom {
 namespace {
 
 constexpr rlim_t most_seconds = 10, most_memory = rlim_t{4} << 30;
-/// Time limit for a process that waits without using a processor
+/// Limit of wall time, for a child process that waits without using a processor
 constexpr unsigned patience_seconds = 50;
-constexpr time_t least_of_loop = 3;        ///< seconds of processor time; undamaged files need less
-constexpr std::size_t longest_text = 4000; ///< bytes that a pipe takes in one write
+constexpr time_t least_of_loop = 3;        ///< seconds of processor time; undamaged files take less
+constexpr std::size_t longest_text = 4000; ///< bytes; a pipe accepts them in one write
 constexpr int code_of_machine = 3;         ///< exit code for a MachineError in the child
 
 void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
@@ -33,7 +33,7 @@ void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
     ::setrlimit(kind, &limit);
 }
 
-/// Sets limits, default signal handlers and no core file: the child must not act as the program.
+/// Sets limits, no core file, and default handlers, because the program's would act for all ranks.
 void take_limits() {
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGXCPU})
         ::signal(number, SIG_DFL);

@@ -8,9 +8,9 @@
 
 namespace carrom {
 
-/// Calls `inspect` in a child process, and then here. Throws FileError with the text of the child's
-/// exception, or if the child takes more than ten seconds of processor time or 4 GiB of additional
-/// memory. Throws MachineError if the child cannot be started, is killed, or waits for 50 s.
+/// Calls `inspect` in a child process, and then here. Throws the child's FileError; also throws one
+/// if the child crashes, or takes more than ten seconds of processor time or 4 GiB of additional
+/// memory. Throws MachineError if the child cannot start, gets SIGKILL, or waits for 50 s.
 void inspect_in_child_first(const std::function<void()>& inspect);
 
 } // namespace carrom

@@ -39,8 +39,8 @@ public:
                  const Communicator& communicator);
     ~CollisionLog();
 
-    /// See Trajectory. `go_on` returns, on every rank, whether there was a file. Steps up to `step`
-    /// that the file lacks become a gap, which the file lists. **Collective.**
+    /// As in Trajectory. `go_on` returns, on every rank, whether there was a file. Steps up to
+    /// `step` that the file lacks become a gap, which the file lists. **Collective.**
     void begin();
     bool go_on(std::int64_t step);
     /// The last step in the file before `go_on` has removed later steps, on rank 0; -1 if unknown.

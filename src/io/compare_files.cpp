@@ -39,7 +39,7 @@ public:
     FileDifference result;
 };
 
-/// The name of a column. Positions are compared as they are stored, so that no bit is lost.
+/// A column's name in messages. Positions are compared as stored, because a shift may lose bits.
 std::string column_text(const FileSummary& summary, const std::string& column) {
     if (column == "x" && summary.origin[0] != 0) return "x from the left side";
     if (column == "y" && summary.origin[1] != 0) return "y from the bottom";

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::string_view partial_prefix = ".carrom-";
 
-/// Whether a name is like "report.json.1234-0.partial": a report or table, a process, a number.
+/// Whether a name is like "report.json.1234-0.partial", as write_whole_file makes in process 1234.
 bool is_text_beside(std::string_view name) {
     if (!name.ends_with(unfinished_suffix)) return false;
     name.remove_suffix(unfinished_suffix.size());
@@ -174,7 +174,7 @@ void refuse_special(const std::string& path) {
 
 namespace {
 
-/// Paths of held folders by their handle, each with a slash at its end.
+/// Paths of the present HeldFolders by their file descriptors; each path ends in a slash.
 std::map<int, std::string>& held_folders() {
     static std::map<int, std::string> all;
     return all;

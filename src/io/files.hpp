@@ -33,7 +33,7 @@ public:
     using FileError::FileError;
 };
 
-/// Throws FileError with `what` and the system's words for `errno`.
+/// Throws FileError (MachineError without free descriptors or memory) with `what` and errno's text.
 [[noreturn]] void fail_with_errno(const std::string& what);
 
 /// A file descriptor that closes itself.
@@ -59,20 +59,20 @@ private:
     int number_ = -1;
 };
 
-/// Whether the path still leads to the open file `number`. Another file may have taken its name.
+/// Whether the path still leads to the open file with descriptor `number`, and not to another one.
 bool leads_to(const std::string& path, int number);
 /// Throws MachineError unless this process may open as many more files as HDF5 and MPI-IO need for
-/// a file with this many parts. Without this test HDF5 and MPI-IO would fail without a reason, and
+/// a file with this many parts. Otherwise HDF5 and MPI-IO would fail without giving a reason, and
 /// HDF5 would return fill values for parts that it cannot open.
 void require_free_files(std::size_t n_parts = 0);
 
-/// Throws if the file system reports less free space than `bytes`.
+/// Throws if the folder does not exist, or its file system reports less free space than `bytes`.
 void check_room(const std::string& folder, std::uint64_t bytes);
 /// Allocates the blocks of a file, so that a full disk is an error now and not later. Does nothing
 /// if the file system cannot do this.
 void reserve(const std::string& path);
-/// Throws if a rename to `path` would replace anything but a plain file or a link, such as a
-/// device, a pipe or a folder, or if the path contains a NUL, at which the system would cut it.
+/// Throws if a rename to `path` would replace a device, a pipe or a folder (not a plain file or a
+/// link), if the path is empty, or if it contains a NUL, at which the system would cut it.
 void refuse_special(const std::string& path);
 /// The folder to which a path leads now. While this object exists, `rename_durably` renames files
 /// below `path` only in this folder, even if something else takes its name. Not thread-safe.
@@ -87,8 +87,8 @@ private:
     int number_;
 };
 
-/// Renames a file, and syncs the folder so that the new name is on disk. Throws if the folder is
-/// held and its path now leads to another folder.
+/// Renames a file, and syncs the folder so that the new name is on disk. Throws if this fails, or
+/// if a HeldFolder exists for the folder and its path now leads to another folder.
 void rename_durably(const std::string& from, const std::string& to);
 /// The end of names of unfinished files.
 inline constexpr std::string_view unfinished_suffix = ".partial";
@@ -122,8 +122,8 @@ std::string folder_of(const std::string& path);
 
 /// The text of an error, with advice if the limit of open files is too low.
 std::string with_remedy(const FileError& error);
-/// The error's text after `path`, with advice. If this machine is the cause, a `code` of bad input
-/// is replaced by that of a failed rank.
+/// The error's text after `path`, with advice. If the cause is this machine, `code` changes from
+/// bad_input to collective_failure, because the input may be correct.
 std::string described(const FileError& error, const std::string& path, ExitCode& code);
 
 /// Runs `act` on every rank. If it throws FileError on any rank, every rank throws CollectiveError

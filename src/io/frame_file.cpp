@@ -123,7 +123,7 @@ void read_system(hid_t file, std::uint64_t n_discs, RecordedSystem& system) {
         throw FileError("has an origin that is no finite number");
 }
 
-/// Checks radii and masses, which are for other programs.
+/// Throws FileError unless all radii and masses, which other programs read, are finite and above 0.
 void check_bodies(hid_t file, const FileSummary& summary) {
     for (const char* path : {radii_path, masses_path}) {
         if (!h5::has(file, path)) continue;
@@ -251,7 +251,7 @@ void FrameFile::open_trajectory() {
         summary_.box = {std::max(summary_.box.x, box.x), std::max(summary_.box.y, box.y)};
 }
 
-/// Reads the first row of each segment, or of a checkpoint.
+/// Reads the first row of each segment or of a checkpoint, so that the child process finds damage.
 void FrameFile::try_all_parts() const {
     Rows rows;
     std::uint64_t first = 0;
@@ -336,7 +336,7 @@ void FrameFile::read_stored(std::size_t frame, std::uint64_t begin, std::uint64_
     }
 }
 
-/// Reads a state. Adding +0 turns -0 into +0, so that states with equal hashes give equal output.
+/// Reads rows of a checkpoint. Adding +0 turns -0 into +0, so that equal hashes give equal output.
 void FrameFile::read_state(std::uint64_t begin, std::uint64_t end, Rows& rows) const {
     const CheckpointHeader& header = state_->header;
     const hid_t file = state_->file.id();

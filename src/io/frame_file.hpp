@@ -24,7 +24,7 @@ struct FileSummary : RecordedSystem {
     /// with discs and walls, computed fields, images, then side columns (core/side_columns.hpp).
     std::vector<std::string> columns;
     std::uint64_t n_rows = 0;         ///< number of rows: discs, or collisions
-    std::size_t bytes_per_number = 8; ///< size of a trajectory's positions and velocities
+    std::size_t bytes_per_number = 8; ///< bytes of each position and velocity
     std::vector<std::int64_t> steps;  ///< the steps of the frames
     std::vector<Box> boxes;           ///< the boxes of a trajectory's frames
     std::string state_hash;           ///< hash of a checkpoint; empty for other files
@@ -56,9 +56,9 @@ public:
     void check_numbers() const;
 
     /// Replaces `rows` by the rows [begin, end) of a frame. A log has one frame, number 0.
-    /// Positions count from the lower left corner of the box.
+    /// Positions are relative to the lower left corner of the box.
     void read(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const;
-    /// Reads the rows with positions that count from the scene's origin.
+    /// Like `read`, but with positions relative to the scene's origin.
     void read_shown(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const;
 
     /// The rows, ascending, of a frame's discs that have left the box through an open side. The
@@ -82,7 +82,7 @@ private:
 struct FileDifference {
     bool is_same = true;
     std::string first;  ///< the first difference, such as "step 10, disc 17, vx: 0.25 and 0.5"
-    double largest = 0; ///< the largest difference of all numbers
+    double largest = 0; ///< the largest absolute difference of two numbers
     std::string largest_in;
 };
 

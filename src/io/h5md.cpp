@@ -14,7 +14,7 @@ namespace carrom::h5md {
 
 namespace {
 
-/// Writes /h5md: the author, the program and its version.
+/// Writes /h5md: the author, the program, its version, and the units that the scene names.
 void write_metadata(hid_t file, const RecordedSystem& system) {
     const std::string& program_version = system.program_version;
     const h5::Group h5md = h5::create_group(file, "h5md");
@@ -30,7 +30,7 @@ void write_metadata(hid_t file, const RecordedSystem& system) {
     h5::write_attribute(units.id(), "system", std::string("SI"));
 }
 
-/// Writes the group `box` with its edges into a group of particles.
+/// Writes the group `box`, with its dimension and boundaries, into a group of particles.
 void create_box(hid_t parent, const RecordedSystem& system) {
     const h5::Group box = h5::create_group(parent, "box");
     h5::write_attribute(box.id(), "dimension", std::array<std::int32_t, 1>{3});

@@ -25,14 +25,14 @@ inline constexpr const char* shown_species_path = "/parameters/species";
 /// Writes /h5md, /parameters, and /particles/discs with the box; the caller adds the box's `edges`.
 void write_system(hid_t file, const RecordedSystem& system);
 
-/// Writes radius, mass and species by disc. If discs are equal, these are fill values, which take
-/// no space.
+/// Writes radius, mass and species of each disc. If discs are equal, these are fill values, which
+/// take no space.
 void write_bodies(hid_t file, const RecordedSystem& system);
 
 std::array<double, 3> edges_of(const Box& box);
 
 /// The unit of length^`lengths` times time^`times`, in the notation of H5MD's module `units`. Empty
-/// if the scene names no units.
+/// if the scene does not name these units.
 std::string unit_of(const RecordedSystem& system, int lengths, int times);
 void write_unit(hid_t dataset, const std::string& unit);
 

@@ -40,9 +40,9 @@ namespace {
 
 // Longer than any scene, which has at most 2^26 characters
 constexpr std::size_t longest_text = std::size_t{1} << 28;
-constexpr unsigned most_links = 64; // largest number of links in a group of Carrom's files
+constexpr unsigned most_links = 64; // a group's header contains up to so many links
 
-/// The innermost entries of the error stack contain the system's text.
+/// Collects the two innermost entries of the error stack, which contain the system's text.
 herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
     auto& all = *static_cast<std::string*>(text);
     if (number < 2 && error->desc != nullptr && *error->desc != '\0')
@@ -96,7 +96,7 @@ void write_and_close(Dataset dataset, const std::string& name, hid_t type, const
     dataset.close(name);
 }
 
-/// Rows of a data set, and contiguous memory for them.
+/// Data spaces that select rows of a data set, and contiguous memory for these rows.
 struct Selection {
     Space memory, file;
 };

@@ -83,7 +83,7 @@ Space space(std::span<const hsize_t> dimensions);
 void select(const Space& space, std::span<const hsize_t> start, std::span<const hsize_t> count);
 
 enum class Access { read, write };
-/// Opens a file. If it joins other files, these must be plain files below its folder.
+/// Opens a file. If it is read and joins other files, these must be plain files below its folder.
 File open_file(const std::string& path, Access access);
 /// Opens a file without checking the files that it joins.
 File open_alone(const std::string& path, Access access);
@@ -125,14 +125,14 @@ inline hid_t type_of(std::int32_t) { return H5T_NATIVE_INT32; }
 inline hid_t type_of(std::int64_t) { return H5T_NATIVE_INT64; }
 inline hid_t type_of(std::uint64_t) { return H5T_NATIVE_UINT64; }
 
-/// Attributes; texts are of fixed length, UTF-8.
+/// Writes an attribute: a UTF-8 text of fixed length, a list of numbers, or a list of texts.
 void write_attribute(hid_t object, const std::string& name, const std::string& text);
 void write_attribute(hid_t object, const std::string& name, std::span<const std::int32_t> numbers);
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& words);
 /// Writes a string of variable length; h5py reads strings of fixed length as bytes.
 void write_any_length(hid_t object, const std::string& name, const std::string& text);
 
-/// Creates a data set and writes all of it from this process; a single value without dimensions.
+/// Creates a data set and writes all of it from this process; one value if there is no dimension.
 void write_whole(hid_t parent, const std::string& name, std::span<const hsize_t> dimensions,
                  hid_t type, const void* values);
 template <class Numbers>
@@ -176,12 +176,12 @@ void read_rows(hid_t dataset, const RowRange& rows, hid_t type, void* numbers);
 /// may let a few of them write large pieces for all.
 enum class Transfer { independent, collective };
 
-/// Writes this rank's rows of a data set, which may be none. **Collective** if `transfer` is.
+/// Writes this rank's rows of a data set, or none. **Collective** if `transfer` is collective.
 void write_rows(hid_t dataset, const RowRange& rows, hid_t type, const void* numbers,
                 Transfer transfer);
 
-/// Makes a file filled by `build(file)`, unless a file or a symbolic link of that name
-/// exists. Large data sets begin at pages of 4096 bytes.
+/// Makes a file and calls `build(file)` to fill it. Throws FileError if a file or a symbolic link
+/// of that name exists. Data sets from 64 KiB on begin at multiples of 4096 bytes.
 void create_file(const std::string& path, const std::function<void(hid_t file)>& build);
 
 } // namespace carrom::h5

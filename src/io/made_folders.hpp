@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Remembers which folders of a path do not exist yet, and removes those that are empty at the end,
-// so that code that fails before it writes leaves no empty folders. For one rank.
+// Lists the folders of a path that do not exist yet. When the list is destroyed, it removes those
+// that then exist and are empty, so that a failed run leaves no empty folders. For one rank.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The description of the discs for other programs, which is valid for all frames of a file.
+// The description of the system of discs in a file, which is valid for all frames of the file.
 #pragma once
 
 #include <array>
@@ -22,9 +22,9 @@ struct RecordedSystem {
     bool is_periodic_x = false, is_periodic_y = false;
     /// Whether discs may be outside of the left, right, bottom and top side
     std::array<bool, 4> open_boundaries{};
-    /// Amplitudes of swinging walls: discs may be outside of the box by these distances
+    /// Amplitudes of swinging walls: discs may be outside of the box by at most these distances
     std::array<double, 4> amplitudes{};
-    /// The point that is (0, 0) for users. It and positions in files count from the box's corner.
+    /// The users' origin. It and positions in files are relative to the box's lower left corner.
     std::array<double, 2> origin{};
     /// Units, such as "nm" and "ps"; empty if the scene names no units
     std::string length_unit, time_unit;

@@ -34,7 +34,7 @@ Index index_of(const std::string& path, bool are_rows_wanted) {
     return std::move(*index);
 }
 
-/// A data space of rows, for data sets of these sizes.
+/// A data space of these sizes, in which `n_rows` rows from row `first` on are selected.
 h5::Space rows_of(const std::vector<hsize_t>& sizes, std::uint64_t first, std::uint64_t n_rows) {
     h5::Space space = h5::space(sizes);
     std::vector<hsize_t> start(sizes.size(), 0), count = sizes;

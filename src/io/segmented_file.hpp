@@ -44,9 +44,9 @@ public:
     SegmentedFile(const std::string& path, std::vector<RecordedColumn> columns, Build build,
                   const Communicator& communicator);
 
-    /// Makes a new file without rows, which replaces any other. If this or any other call fails,
-    /// every rank throws CollectiveError (exit code 4), and the file is as it was at the last
-    /// commit. **Collective.**
+    /// Makes a new file without rows, which replaces any other. If this or another collective call
+    /// fails, every rank throws CollectiveError (exit code 4), and the file is as it was at the
+    /// last commit. **Collective.**
     void begin();
 
     /// Continues an existing file after `check` has accepted it, cut back to the rows whose number
@@ -104,7 +104,7 @@ private:
     std::uint64_t n_rows_ = 0;
     bool is_cut_ = false;                ///< whether rows were cut off since the last commit
     ColumnHashers hashers_;              ///< hashes of the last segment's columns
-    std::vector<std::uint64_t> written_; ///< bytes of each column since the last `add`
+    std::vector<std::uint64_t> written_; ///< bytes written to each column since `add`
     /// The last segment. It stays open, so that writes never reach another file of this name.
     std::unique_ptr<Descriptor> open_;
     std::uint64_t open_size_ = 0; ///< full size of the last segment in bytes, which does not change

@@ -25,7 +25,7 @@ struct FileSegment {
     std::vector<std::uint64_t> places; ///< offset of each column in the segment
 };
 
-/// The list of segments in the small file.
+/// The list of segments in the file that joins them.
 struct Index {
     std::vector<std::uint64_t> row_bytes; ///< bytes of a row for each column
     std::vector<FileSegment> segments;
@@ -42,7 +42,7 @@ using ColumnHashers = std::vector<Hasher>;
 ColumnHashers hashers_of_columns(std::size_t n_columns);
 StateHash sum_of(const ColumnHashers& hashers);
 
-/// Hashes a segment's rows. Throws FileError.
+/// Hashes the valid rows of a segment, column by column. Throws FileError.
 ColumnHashers hash_rows(const std::string& path, const FileSegment& segment,
                         const std::vector<std::uint64_t>& row_bytes);
 StateHash hash_of_structure(const std::string& path, const FileSegment& segment,

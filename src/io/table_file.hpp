@@ -10,12 +10,12 @@
 
 namespace carrom {
 
-/// Writes a new file and replaces the file at `path` by it,
-/// in one process. Returns the problem, or an empty text.
+/// Writes a new file and replaces the file at `path` by it.
+/// Called on one rank. Returns the problem, or an empty text.
 std::string write_table_file(const std::string& path, std::span<const MeasuredTable> tables);
 
 /// Whether a file contains tables of Carrom. Other files of that name, and files that cannot be
-/// read, belong to somebody else and must not be replaced.
+/// read, must not be replaced, because another program may have written them.
 bool is_table_file(const std::string& path);
 
 } // namespace carrom

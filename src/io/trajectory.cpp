@@ -46,7 +46,7 @@ struct Field {
     std::string name;
     std::size_t place;
     hsize_t width;
-    hid_t type; ///< type in the file; whole numbers lose their highest bytes
+    hid_t type; ///< type in the file; a shorter integer type drops the highest bytes
     std::string unit;
 };
 
@@ -104,7 +104,7 @@ void write_structure(hid_t file, const TrajectoryLayout& layout) {
     }
 }
 
-/// The words of a disc that are collected: those of the layout's fields that are not always 0.
+/// Selects the words of a disc that rank 0 collects: the layout's fields, without constant zeros.
 class CollectedWords {
 public:
     explicit CollectedWords(const std::vector<Field>& fields) {
@@ -225,7 +225,7 @@ private:
     std::vector<std::uint64_t> slab_; ///< the collected words of each disc
 };
 
-/// The bytes of a field of some discs, in the file's types.
+/// The bytes of a field of the discs in `slab`, in the field's type in the file.
 std::vector<std::byte> bytes_of(const Field& field, const CollectedWords& collected,
                                 std::span<const std::uint64_t> slab) {
     const bool is_single = H5Tequal(field.type, H5T_IEEE_F32LE) > 0;

@@ -2,7 +2,7 @@
 // Frames of a run at regular steps as H5MD, with discs in the order of their ids.
 //
 // Frames stream through rank 0 in slabs of ids. So a kill does not damage them, and they can be
-// read during the run (SegmentedFile), but one rank's speed to the disk limits them. An XDMF
+// read during the run (SegmentedFile), but they are written only as fast as one rank can. An XDMF
 // description for ParaView and VisIt is written beside the file.
 #pragma once
 
@@ -24,13 +24,13 @@ namespace carrom {
 
 struct TrajectoryLayout {
     RecordedSystem system;
-    double velocity_unit = 1; ///< converts stored velocities to velocities per step
+    double velocity_unit = 1; ///< factor from stored velocities to velocities per step
     bool has_position = true, has_velocity = true, has_collisions = false;
     bool has_image = false;
     ComputedFieldSet computed{}; ///< computed fields in each frame
     SideColumnSet columns;       ///< side columns (core/side_columns.hpp) in each frame
     bool is_single = true;       ///< numbers are float32 instead of float64
-    /// Description of the run; if its text is empty, the file does not name its run
+    /// Description of the run; if its scene text is empty, the file does not describe its run
     CheckpointHeader run;
 };
 
@@ -43,8 +43,8 @@ public:
                const Communicator& communicator);
     ~Trajectory();
 
-    /// Replaces any other file by a new one. If this or any other call fails, every rank throws
-    /// CollectiveError, exit code 4, and the file stays as at the last commit. **Collective.**
+    /// Replaces any other file by a new one. If this or another collective call fails, every rank
+    /// throws CollectiveError, exit code 4; the file stays as at the last commit. **Collective.**
     void begin();
 
     /// Continues the file, cut back to frames up to `step`, or makes a new one if there is none.

@@ -21,7 +21,7 @@ namespace carrom {
 
 namespace {
 
-/// Waits this long for the lock, because a run that was just killed may still be ending.
+/// Waits up to `patience` for the lock, because a run that was just killed may still be ending.
 constexpr std::chrono::milliseconds patience(2000), pause(50);
 
 std::string this_process() {

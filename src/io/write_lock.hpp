@@ -18,8 +18,8 @@ namespace carrom {
 class WriteLock {
 public:
     /// Takes the lock of `path`, on one rank. If another process keeps it for two seconds, `holder`
-    /// names that process; otherwise it is empty, also if there are no locks. `made` are the
-    /// folders that were made for the lock.
+    /// names that process; otherwise it is empty, also on a file system without locks. `made` are
+    /// the folders that were made for the lock.
     explicit WriteLock(std::string path, MadeFolders made = {});
     /// Releases the lock, and removes the file unless the name now belongs to another file. Then
     /// removes the folders that were made, if they are empty.

@@ -36,7 +36,7 @@ std::string attribute(const char* name, const char* kind, const std::string& ite
                        name, kind, item);
 }
 
-/// Numbers that are equal in all frames: radius or species.
+/// The XDMF text of a number of each disc that is equal in all frames: radius or species.
 std::string fixed(const std::string& file, const TrajectoryLayout& layout, const char* name,
                   const char* type) {
     return attribute(name, "Scalar",

@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-/// Widths in spacings: a lattice's sites span `x_spans` times dx and `y_spans` times dy.
+/// A lattice and its size in spacings: its sites span `x_spans` times dx and `y_spans` times dy.
 struct Shape {
     Lattice lattice;
     double x_spans = 0, y_spans = 0;
@@ -34,7 +34,7 @@ Shape shape_of(std::uint64_t n_discs, std::uint64_t rows, bool is_staggered,
     return shape;
 }
 
-/// The distance of nearest sites relative to the lattice's width.
+/// The distance between nearest sites relative to the lattice's width, in a square box.
 double nearest_share(const Shape& shape) {
     const double infinity = std::numeric_limits<double>::infinity();
     const double dx = shape.x_spans > 0 ? 1 / shape.x_spans : infinity;
@@ -115,8 +115,8 @@ std::optional<Lattice> widest_lattice(std::uint64_t n_discs, const Box& box, dou
     try_rows_along(longer_axis(box), n_discs, box, radius, widest);
     if (!box.is_square())
         try_rows_along(other_axis(longer_axis(box)), n_discs, box, radius, widest);
-    // Neighbours may touch. If a rounding error of L makes them
-    // overlap, the overlap is within the method's tolerance.
+    // Neighbours may touch. An overlap from a rounding error of an edge of the
+    // box is within the method's tolerance.
     if (widest->free_radius < -0x1p-52 * box.longest()) return std::nullopt;
     widest->free_radius = std::max(widest->free_radius - 0x1p-49 * box.longest(),
                                    0.0); // rounding must not make the gap negative

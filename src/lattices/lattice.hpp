@@ -2,12 +2,12 @@
 // The lattice of N discs between walls that has the widest gaps, and random shifts of its discs
 // that never make discs overlap.
 //
-// It tries a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1 sites),
-// stretched to fill the box, with every number of rows along the longer side and then along the
-// other one. The lattice with the largest free distance of discs is chosen. Its sites leave a gap s
-// to the walls and 2 s between discs, so each disc may be moved by up to s in any direction without
-// an overlap. Sites in excess of N stay empty, spread evenly. Finding the lattice costs O(sqrt N)
-// in a square, and a site costs O(1).
+// Candidates are a square lattice and two hexagonal ones (rows of n and n, rows of n and n-1
+// sites), stretched to fill the box, with rows along either axis and up to twice as many rows as a
+// lattice of equal spacings has. The lattice with the widest gaps is chosen. Its sites leave a gap
+// s to the walls and 2 s between discs, so each disc may be moved by up to s in any direction
+// without an overlap. Sites in excess of N stay empty, spread evenly. Finding the lattice costs
+// O(sqrt N) in a square box, and computing the position of a site costs O(1).
 #pragma once
 
 #include <cstdint>

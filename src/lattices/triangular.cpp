@@ -27,7 +27,7 @@ double TriangularLattice::nearest() const {
                     std::sqrt(spacing * spacing / 4 + height * height));
 }
 
-/// The first and the last site of a row are a quarter of a spacing from the edges of the box.
+/// Even rows begin, and odd rows end, a quarter of a spacing from an edge of the box.
 Point TriangularLattice::site(DiscId id) const {
     const std::uint64_t row = id / columns, column = id % columns;
     const double shift = row % 2 == 0 ? 0.25 : 0.75;

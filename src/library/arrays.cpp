@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers of all discs by their ids, for programs that work on arrays. Threads fill them without a
-// sort, because each disc's place is its id.
+// sort, because a disc's place in an array is its id.
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -21,9 +21,9 @@ void check_size(const char* call, std::size_t size, std::uint64_t wanted) {
             {{call, 0, fmt::format("has room for {} numbers; it wants {}", size, wanted)}});
 }
 
-/// Whether a place may be outside of [0, period). Without a period the range is unlimited. One
-/// comparison is enough, because the bits of numbers from 0 on are ordered like the numbers, and
-/// the bits of negative numbers are larger.
+/// Whether a coordinate may be outside of [0, period), or below 0 without a period. One comparison
+/// is enough, because the bits of numbers from 0 on are ordered like the numbers, and the bits of
+/// negative numbers are larger.
 bool may_be_outside(double place, double period) {
     const double end = period == 0 ? std::numeric_limits<double>::infinity() : period;
     return std::bit_cast<std::uint64_t>(place) >= std::bit_cast<std::uint64_t>(end);
@@ -37,8 +37,8 @@ template <class Put>
     put(disc.id, disc.x, disc.y);
 }
 
-/// Calls `put(id, x, y)` for each disc of this rank with its position in the box, on all threads.
-/// Calls it again with the right position for a disc that may have left the box or has departed.
+/// Calls `put(id, x, y)` for each disc of this rank, on all threads. Only the last call for a disc
+/// counts: one that may have left the box or has departed gets a first call with a wrong position.
 template <class Put> void for_each_place(const Run& run, const Put& put) {
     const DiscSystem& system = run.system();
     const std::span<const DiscState> discs = system.discs();

@@ -3,8 +3,8 @@
 //
 // Both continue from the stored state as a restart from a checkpoint does, so they also have the
 // same bits on any number of ranks and threads. A changed disc starts anew at the present time. All
-// others keep their stored bits, so setting the present values changes nothing. Price: about the
-// time to set up a run of these discs, and the memory of a second run meanwhile.
+// others keep their stored bits, so setting a disc to its present values changes nothing. Cost:
+// about the time to set up a run of these discs, and the memory of a second run meanwhile.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -78,14 +78,14 @@ struct Change {
     bool is_on() const { return of_place || of_velocity || of_spin; }
 };
 
-/// The disc with positions from the box's lower left corner. Unchanged positions keep all bits.
+/// The disc with coordinates from the box's lower left corner; unchanged ones keep all bits.
 Disc counted_from_corner(Disc disc, const DiscState& shown, const Origin& origin) {
     disc.x = disc.x == shown.x - origin.x ? shown.x : disc.x + origin.x;
     disc.y = disc.y == shown.y - origin.y ? shown.y : disc.y + origin.y;
     return disc;
 }
 
-/// Compares with `shown`, the disc in the frame of the box with velocities per micro-step.
+/// Compares a given disc with `shown`, its state in the box's frame with velocities per micro-step.
 Change change_of(const Disc& disc, const DiscState& shown, double unit, double spin) {
     return {disc.x != shown.x || disc.y != shown.y,
             disc.vx != shown.vx * unit || disc.vy != shown.vy * unit, disc.spin != spin};
@@ -119,7 +119,7 @@ void refuse_spins_of_smooth(const std::vector<Disc>& discs, const Run& run) {
                            "set effects.contact.kind = \"rough\" in the scene"}});
 }
 
-/// The problems of discs in the order of their ids.
+/// The problems of the given discs, which are in the order of their ids like `present`.
 std::vector<Problem> problems_of(const std::vector<Disc>& discs, const std::vector<Disc>& present,
                                  const Run& run) {
     const auto has_same_id = [](const Disc& a, const Disc& b) { return a.id == b.id; };

@@ -140,7 +140,7 @@ FirstState first_state(const Scene& scene, const Communicator& ranks, const Tuni
     let_root(ranks, [&] {
         if (!source.text.discs_follow) return;
         source.stream = std::make_unique<std::ifstream>(open_input(source.text.name));
-        read_scene_text(*source.stream, source.text.name); // the text up to the first disc
+        read_scene_text(*source.stream, source.text.name); // skips up to the first disc
     });
     FirstState first;
     first.scene = with_named_keys(

@@ -76,7 +76,7 @@ Simulation::State::State(SceneParameters checked, RunStart start, const Communic
 }
 
 std::int64_t Simulation::State::ImageReading::next_due(std::int64_t) const {
-    // Requests no stops of its own, because the run stops often enough
+    // Never due by itself, because the run calls all its actions often enough
     return std::numeric_limits<std::int64_t>::max();
 }
 
@@ -102,7 +102,7 @@ void Simulation::State::replace(RunStart start, std::optional<std::uint64_t> mos
                                fmt::format("{} pairs of discs would overlap, the deepest by {:.3g}",
                                            totals.overlapping_pairs, totals.deepest_overlap)}});
     }
-    checkpoints_.reset(); // the old checkpoints refer to the old run
+    checkpoints_.reset(); // this object refers to the old run
     run_ = std::move(next);
     read_images_often();
     if (wanted_checkpoints_) keep_checkpoints(*wanted_checkpoints_);

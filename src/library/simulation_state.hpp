@@ -24,7 +24,7 @@ struct Simulation::State {
 
     Run& run() const { return *run_; }
     /// Replaces the state at the present step by `start`. Throws InputError and changes nothing if
-    /// more than `most_overlaps` pairs overlap. **Collective.**
+    /// more than `most_overlaps` pairs overlap, if it is set. **Collective.**
     void replace(RunStart start, std::optional<std::uint64_t> most_overlaps);
     /// **Collective.**
     void keep_checkpoints(CheckpointOutput wanted);
@@ -56,7 +56,7 @@ private:
 /// The present state of a run, from which another run can start. **Collective.**
 RunStart stored_start(Run& run);
 
-/// The scene of a run at its present state, without keys that only concern its start.
+/// The scene of a run, with the chosen method and micro-steps in place of `time.accuracy`.
 SceneParameters scene_to_go_on(const Run& run);
 
 } // namespace carrom

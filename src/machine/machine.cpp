@@ -35,7 +35,7 @@ constexpr int most_threads = 1024;
 /// The largest number of threads for each core without a
 /// warning. Two are usual in trials on small machines.
 constexpr int most_crowded = 2;
-/// Up to two threads are accepted for any number of discs.
+/// Up to two threads give no warning, however few discs a rank has.
 constexpr int few_threads = 2;
 
 /// The variable OMP_NUM_THREADS. If it is empty it counts as unset, because a batch script may set
@@ -72,7 +72,7 @@ int sharers_of(std::uint64_t key, const Communicator& ranks) {
 
 constexpr std::uint64_t without_limit = std::numeric_limits<std::uint64_t>::max();
 
-/// The memory of the node, including swap.
+/// The memory of the node in bytes, including swap.
 std::uint64_t memory_of_node() {
     std::ifstream facts("/proc/meminfo");
     std::uint64_t sum = 0;
@@ -82,8 +82,8 @@ std::uint64_t memory_of_node() {
     return sum > 0 ? sum : without_limit;
 }
 
-/// The smallest limit of this process's control group (version 2, or `memory` of version 1) and of
-/// the groups that contain it.
+/// The smallest memory limit, in bytes, of this process's control group (version 2, or `memory` of
+/// version 1) and of the groups that contain it.
 std::uint64_t memory_of_control_group() {
     std::uint64_t least = without_limit;
     const auto read_limit = [&least](const std::filesystem::path& path) {

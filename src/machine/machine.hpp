@@ -43,8 +43,8 @@ void check_threads(int threads, const Communicator& ranks);
 std::string limit_in_the_way();
 
 /// A warning with a better number of threads if a rank has more threads than cores, if ranks that
-/// share cores have more than twice as many threads together, or if a rank has more threads than
-/// its discs can use; else empty. **Collective.**
+/// share cores have more than two threads a core together, or if a rank has more threads than its
+/// discs can use; else empty. **Collective.**
 std::string warning_of_crowded_threads(int threads, std::uint64_t n_discs,
                                        const Communicator& ranks);
 

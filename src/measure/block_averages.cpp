@@ -13,10 +13,10 @@ namespace carrom {
 
 namespace {
 
-/// In long runs samples are at least this many micro-steps apart.
+/// Samples are at most this many micro-steps apart, or a sync interval if that is longer.
 constexpr std::int64_t usual_interval = 64;
-/// A run of at least this many steps takes a sample at each step at first. These hundred or so
-/// extra samples cost little in a long run, and a user who stops early gets errors.
+/// A run that ends at this step or later takes a sample at each step at first. These hundred or so
+/// extra samples cost little in a long run, and give error estimates to a user who stops early.
 constexpr std::int64_t many_steps = 1'000'000;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -38,8 +38,8 @@ void BlockAverages::begin() {
     first_step_ = block_step_ = sample_step_ = run_.system.step();
     interval_.emplace(run_.system, run_.ranks);
     present_ = {};
-    // Each sample costs some nanoseconds a disc, and another window of the event-driven method if
-    // it is between syncs. A run whose energy changes needs more samples.
+    // A sample costs some nanoseconds a disc and, between syncs, one more window of the
+    // event-driven method. A run whose energy changes needs more samples.
     const auto wanted = static_cast<std::int64_t>(system_.keeps_energy ? fewest_blocks
                                                                        : most_blocks / 2);
     steps_per_sample_ = std::clamp<std::int64_t>((system_.last_step - first_step_) / wanted, 1,
@@ -50,8 +50,8 @@ void BlockAverages::begin() {
     blocks_.clear();
 }
 
-/// Whether samples are taken at each step at first. They are not if effects make the energy jump at
-/// syncs, because the interval of such samples is chosen to suit the syncs.
+/// Whether the first samples are taken at each step. This is so in long runs, unless effects make
+/// the energy jump at syncs, because the interval of samples is then chosen to suit the syncs.
 bool BlockAverages::begins_with_steps() const {
     return system_.last_step >= many_steps && !does_energy_jump(run_.scene.effects);
 }
@@ -63,7 +63,7 @@ bool BlockAverages::is_short(const Block& whole, double collisions_per_disc) con
 }
 
 /// Returns the number of steps between samples, at most `steps`. If possible, it is chosen so that
-/// successive samples reach all steps between two syncs.
+/// samples fall on each step between two syncs in turn.
 std::int64_t BlockAverages::between_syncs(std::int64_t steps) const {
     for (std::int64_t less = steps; less > steps / 2; --less)
         if (std::gcd(less * system_.micro_steps, system_.sync_every) ==
@@ -107,12 +107,12 @@ void BlockAverages::add(std::int64_t step, const Block& block) {
     }
     blocks_.resize(most_blocks / 2);
     steps_per_block_ *= 2;
-    // Samples become rarer if a run continues beyond its planned end.
+    // Samples become rarer in runs that began with one per step or pass their planned end.
     if (2 * steps_per_sample_ <= most_steps_per_sample()) steps_per_sample_ *= 2;
 }
 
-/// The longest time between samples: the interval of
-/// syncs, or `usual_interval` if syncs are more frequent.
+/// The largest number of steps between samples: a sync interval, or
+/// `usual_interval` micro-steps if syncs are more frequent.
 std::int64_t BlockAverages::most_steps_per_sample() const {
     const std::int64_t apart = std::max(system_.sync_every, usual_interval);
     return (apart + system_.micro_steps - 1) / system_.micro_steps;
@@ -142,7 +142,7 @@ void BlockAverages::Block::keep(KeptNumbers& kept) {
     keep_tensor(kept, motion.stress);
 }
 
-/// Averages begin anew after a restart if the scene now averages over other steps.
+/// Stores or restores the averages. They begin anew if the scene's `averages_from` has changed.
 void BlockAverages::keep(KeptNumbers& kept) {
     kept.same(run_.scene.averages_from);
     MotionInterval::Pending pending;
@@ -187,7 +187,7 @@ BlockAverages::Block BlockAverages::block_up_to(std::int64_t step,
     block.pairs = static_cast<double>(sample.pair_collisions - before.pair_collisions);
     const auto steps = static_cast<double>(step - sample_step_);
     block.motion = integrals_between(system_, before, sample, steps);
-    // These numbers are assumed to change linearly between two samples
+    // Mean speed and kurtosis are assumed to change linearly between two samples
     for (const MotionSample* one : {&before, &sample}) {
         block.speed += steps / 2 * one->mean_speed * one->speed_unit * system_.velocity_unit;
         block.kurtosis += steps / 2 * kurtosis_of(*one);

@@ -3,16 +3,16 @@
 // measurement is always on, and has its own sampling times.
 //
 // A block covers a number of steps. When there are `most_blocks` blocks, they are joined in pairs,
-// and later blocks are twice as long. The discs are sampled at fixed steps, which do not depend on
-// syncs. Between two samples the integrals of stress and energy are exact (engine/stress_sums.hpp),
+// and later blocks are twice as long. Samples are taken at equal intervals, between syncs as well.
+// Between two samples the integrals of stress and energy are exact (engine/stress_sums.hpp),
 // and so are counts of collisions. Mean speed and kurtosis are assumed to change linearly. In long
 // runs samples are 64 micro-steps or a sync interval apart, whichever is longer; short runs and
 // changing energies need closer samples. Cost of a sample: two passes over the discs, 5 ns a disc.
 //
-// A run planned for a million steps or more begins with samples each step. Its first blocks are
-// single steps, so that a user who stops early gets error estimates. Velocities stay correlated
-// over several collisions, which short blocks cannot show, so an error needs enough collisions.
-// With these limits the scatter between runs is at most 1.3 times the estimated error.
+// Runs to step 1,000,000 or later whose energy does not jump at syncs begin with a sample at each
+// step and with blocks of single steps, so that a user who stops early gets error estimates.
+// Velocities stay correlated over several collisions, which short blocks cannot show, so an error
+// needs enough collisions. The scatter between runs is then at most 1.3 times the estimated error.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,9 @@
 
 namespace carrom {
 
-/// In a run that begins with blocks of single steps, an error estimate needs this many blocks, and
-/// this many collisions of all discs together. Averages of speeds and of single pressure components
-/// need this many collisions of each disc.
+/// In a run that begins with blocks of single steps, an error estimate needs `fewest_short_blocks`
+/// blocks and `fewest_collisions` collisions of all discs together. Averages of speeds and of
+/// single pressure components need `fewest_collisions` pair collisions of each disc.
 constexpr std::size_t fewest_short_blocks = 16;
 constexpr double fewest_collisions = 32;
 
@@ -44,7 +44,7 @@ public:
     /// The first step after `step` at which averages begin or a sample is due.
     std::int64_t next_due(std::int64_t step) const;
     void sample_if_due();
-    /// Starts the present interval with the present velocities, because effects have just acted.
+    /// Begins the interval of integrals again at this step, after effects have changed velocities.
     void begin_interval() { interval_->begin(interval_->now()); }
     void sample(const SampledState& state) override;
     void keep(KeptNumbers& kept) override;
@@ -74,7 +74,7 @@ private:
     Block block_up_to(std::int64_t step, const MotionSample& sample) const;
     void keep_blocks(KeptNumbers& kept);
     bool lost_discs() const;
-    /// In a run that begins with blocks of single steps an error needs `collisions` per disc.
+    /// Runs that begin with single-step blocks need `collisions` pair collisions a disc for errors.
     template <class Value>
     Estimate estimate(const Block& whole, const Value& value, double collisions = 0) const;
     void fill_pressures(Averages& result, const Block& whole) const;
@@ -82,7 +82,7 @@ private:
                                 const MotionSample& sample) const;
 
     const AveragedSystem& system_;
-    /// The interval since the last sample, after averages have begun
+    /// The interval since the last sample; empty until averages begin
     std::optional<MotionInterval> interval_;
     /// The first step, the first step of the present block, and the step of the last sample
     std::int64_t first_step_ = 0, block_step_ = 0, sample_step_ = 0;

@@ -21,7 +21,7 @@ double sum_over(std::span<const Flight> flights, double n, double largest,
     return sum.value();
 }
 
-/// Subtracts the mean of one component, weighted by mass.
+/// Subtracts from one component of a vector its mean over all discs, weighted by mass.
 void subtract_mean(std::vector<Flight>& flights, std::array<double, 2> Flight::* vector,
                    std::size_t axis, double n, double largest, double heaviest,
                    const Communicator& ranks) {
@@ -55,7 +55,7 @@ std::array<double, 3> mean_flights(std::vector<Flight>& flights, const FlightBou
         subtract_mean(flights, &Flight::first_velocity, axis, n, bounds.velocity, heaviest, ranks);
         subtract_mean(flights, &Flight::velocity, axis, n, bounds.velocity, heaviest, ranks);
     }
-    // The mean may be as large as the largest term, so a difference may be twice as large.
+    // A component minus its mean may be twice as large as the bound of the component.
     const auto square = [&](std::size_t axis) {
         return sum_over(flights, n, 4 * bounds.way * bounds.way, ranks,
                         [&](const Flight& flight) { return flight.way[axis] * flight.way[axis]; });

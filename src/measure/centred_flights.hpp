@@ -19,13 +19,13 @@
 
 namespace carrom {
 
-/// One disc's displacement, its velocities at the beginning and now, and its mass.
+/// One disc's displacement, its velocities at the start of the displacement and now, and its mass.
 struct Flight {
     std::array<double, 2> way{}, first_velocity{}, velocity{};
     double mass = 1;
 };
 
-/// Upper bounds of the components' absolute values, the same on all ranks.
+/// Upper bounds of the absolute values of the vectors' components, the same on all ranks.
 struct FlightBounds {
     double way = 0, velocity = 0;
 };
@@ -33,8 +33,8 @@ struct FlightBounds {
 /// Whether the common motion of `n_discs` discs along x, and along y, is subtracted.
 std::array<bool, 2> is_centred(const SceneParameters& scene, double n_discs);
 
-/// Mean squares of displacements along x and y, and the mean product of velocities, over all ranks'
-/// flights. The sums are exact. **Collective.**
+/// Mean squares of displacements along x and y, and the mean scalar product of first and present
+/// velocities, over all ranks' flights. The sums are exact. **Collective.**
 std::array<double, 3> mean_flights(std::vector<Flight>& flights, const FlightBounds& bounds,
                                    const SceneParameters& scene, const Communicator& ranks);
 

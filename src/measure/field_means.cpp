@@ -18,7 +18,7 @@ struct Moments {
 
 const double* samples_of(BlockNumbers cell) { return cell.data() + 1 + n_field_moments; }
 
-/// kT as a tensor, from velocities relative to the mean velocity of each sample of the cell.
+/// kT as a tensor, from velocities relative to the mean velocity of the cell in each sample.
 Moments thermal_of(BlockNumbers cell) {
     const double* const sampled = samples_of(cell);
     const double n = sampled[sample_in_pair]; // 0 / 0 is NaN
@@ -26,8 +26,8 @@ Moments thermal_of(BlockNumbers cell) {
 }
 
 /// One component of the sum of m c^2 c / 2, for velocities c relative to the mean (vx, vy).
-/// `energy` and `v` are this component of the same sum for velocities in the box and of the mean,
-/// and (along_x, along_y) is the row of the momentum flux for this axis.
+/// `energy` is this component of the same sum for velocities relative to the box, `v` is this
+/// component of the mean, and (along_x, along_y) is the row of the momentum flux for this axis.
 double heat_about(double energy, double v, double along_x, double along_y, double flux, double mass,
                   double vx, double vy) {
     return energy - v * flux / 2 - vx * along_x - vy * along_y + mass * (vx * vx + vy * vy) * v;
@@ -71,7 +71,7 @@ double common_temperature(std::span<const double> cells) {
 
 namespace {
 
-/// Kinetic fluxes relative to the mean velocity of the block.
+/// Kinetic stress and heat flow relative to the block's mean velocity, summed over its samples.
 struct Kinetic {
     Moments stress;
     double heat_x, heat_y;

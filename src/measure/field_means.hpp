@@ -12,8 +12,8 @@
 // The middle sum does not depend on D, so it gives kT, and the missing part is D kT. The n_k discs
 // of a sample have the weight n_k / (n_k - 1). With equal weights, samples of a cell after fast
 // discs have left it would count too much, because they contain fewer discs. In a flow that changes
-// within the block the last sum is larger than thermal motion can make it. This sum then belongs to
-// the fields relative to V, and the correction uses D = 1.
+// within the block the last sum is larger than thermal motion can make it. In this case the sum is
+// part of the fields relative to V, and the correction uses D = 1.
 #pragma once
 
 #include <array>
@@ -30,11 +30,11 @@ namespace carrom {
 enum SampleMoment : std::uint8_t {
     sample_count,   ///< number of samples with a disc in the cell
     sample_drift,   ///< sum of M_k V_k^2, where M_k is the mass in the cell in sample k
-    sample_in_pair, ///< number of discs, in samples with two or more discs
+    sample_in_pair, ///< discs in the cell, summed over samples with two or more discs
     sample_flux_xx,
     sample_flux_xy,
     sample_flux_yy,
-    sample_in_three, ///< number of discs, in samples with three or more discs
+    sample_in_three, ///< discs in the cell, summed over samples with three or more discs
     sample_heat_x,
     sample_heat_y,
     n_sample_moments
@@ -48,11 +48,11 @@ using SampleSums = std::span<double, n_sample_moments>;
 /// Adds one sample of a cell, with the discs of all ranks, to `sums`.
 void add_sample(const FieldSums& sample, std::size_t cell, SampleSums sums);
 
-/// Mean kT of a table's cells in a block, weighted by discs; `cells` has one cell after another.
+/// Mean kT of a table's cells in a block, weighted by discs; `cells` has BlockNumbers of each cell.
 double common_temperature(std::span<const double> cells);
 
-/// The table's columns from `count` on. `common` is the mean kT of all cells. Temperatures are NaN
-/// if no sample has two discs. So are heat flows if no sample has three, unless the flow changes.
+/// The columns of "profiles" from `count` on; `common`: mean kT of all cells. kT and kinetic stress
+/// are NaN if no sample has two discs, kinetic heat flow if none has three and the flow is steady.
 std::vector<double> fields_of(BlockNumbers cell, double common, double n_samples, double steps,
                               double area);
 

@@ -8,8 +8,8 @@ namespace carrom {
 
 namespace {
 
-/// Typical terms of discs are some 2^50 units, and sums of them have up to 2^75 units. Terms of
-/// collisions are some 2^47 units, so that the largest in a million is below 2^51.
+/// A typical term of a disc is some 2^50 units, and a sum may reach 2^75 such terms. A typical term
+/// of a collision is some 2^47 units, so that the largest in a million is below 2^51.
 constexpr double headroom = 0x1p75, headroom_of_contacts = 0x1p78;
 constexpr std::size_t words_per_cell = 1 + 4 * n_field_moments;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sums over the cells of a grid, for fields such as density, flow and stress.
 //
-// All sums are exact, and the sums of ranks are added only when they are needed. So they have the
-// same bits on any number of ranks, and the sum over all cells is exactly the sum over all discs.
-// Memory: 490 bytes for each cell on each rank.
+// All sums are exact, and the sums of all ranks are added only when a result is needed. So results
+// have the same bits on any number of ranks, and the sum over all cells is exactly the sum over all
+// discs. Memory: 490 bytes for each cell on each rank.
 #pragma once
 
 #include <algorithm>
@@ -21,9 +21,9 @@
 
 namespace carrom {
 
-/// The sums of each cell. The first eight are over discs, the others over collisions: impulse times
-/// distance, which divided by time and area is the collisional part of the pressure tensor, and
-/// energy times distance, which in the same way gives the collisional flow of energy.
+/// The sums of each cell: eight over discs, then five over collisions. Impulse times distance,
+/// divided by time and area, is the collisional part of the pressure tensor. Energy times distance,
+/// divided in the same way, is the collisional flow of energy.
 enum FieldMoment : std::uint8_t {
     field_mass,
     field_momentum_x,
@@ -48,11 +48,11 @@ using ContactUnits = std::array<std::int64_t, n_contact_moments>;
 
 /// x and y of a vector; GCC and Clang compute both at once.
 using Pair [[gnu::vector_size(16)]] = double;
-/// Pairs of integers, of 64 bits and of 32 bits.
+/// Pairs of 64-bit and of 32-bit integers.
 using PairOfWords [[gnu::vector_size(16)]] = std::uint64_t;
 using PairOfCells [[gnu::vector_size(8)]] = std::int32_t;
 
-/// Terms of a collision: stress xx and yy; stress xy twice; flow of energy along x and y.
+/// Terms of a collision: stress xx and yy; stress xy in both elements; energy flow along x and y.
 struct ContactTerms {
     Pair normal, shear, flow;
 };
@@ -68,7 +68,7 @@ struct PlacedGrid {
     Pair per_length, origin;
 };
 
-/// Column and row. Positions must lie within 2^31 cells of the origin.
+/// Column and row of a scaled position, which must lie within 2^31 cells of the origin.
 inline PairOfCells cell_at(Pair place) { return __builtin_convertvector(place, PairOfCells); }
 inline bool are_same(PairOfCells a, PairOfCells b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -97,8 +97,8 @@ public:
         else
             for (std::size_t k = 0; k < n_disc_moments; ++k) sums[k].add(terms[k]);
     }
-    /// The terms that a collision adds, in units of the sums. `velocity` must be such that p gives
-    /// to q the energy -(`impulse_of_p` * `velocity`) / 2.
+    /// The terms that a collision of discs p and q adds, in units of the sums. `velocity` must be
+    /// such that p gives q the energy -(`impulse_of_p` . `velocity`) / 2.
     ContactTerms terms_of(Pair impulse_of_p, Pair from_p_to_q, Pair velocity) const {
         const Pair twice = sum_of(impulse_of_p * velocity);
         return {impulse_of_p * from_p_to_q * normal_scales_,
@@ -134,7 +134,7 @@ public:
 
     /// The counts and sums of all ranks, as words. **Collective.**
     std::vector<std::uint64_t> joined_words(const Communicator& ranks) const;
-    /// Adds words of `joined_words`. Returns false if their number is wrong.
+    /// Adds sums that `joined_words` has returned. Returns false if the number of words is wrong.
     bool add_words(const std::vector<std::uint64_t>& words);
     /// Adds to each cell one cell of `other`, beginning with the cell `first` of `other`.
     void add(const FieldSums& other, std::size_t first);
@@ -149,24 +149,24 @@ public:
     FieldSums total() const { return over_species(size()); }
 
 private:
-    /// Typical terms have 50 bits. At 8 times the typical speed and this mass the largest term is
-    /// 2^11 times as large.
+    /// Typical terms have 50 bits. At 8 times the typical speed and a mass of 4 the largest term is
+    /// 2^10 times as large.
     static constexpr double usual_mass = 4, usual_speeds = 8;
 
     static Pair turned(Pair pair) { return Pair{pair[1], pair[0]}; }
     /// The sum of both numbers, in both elements of the result.
     static Pair sum_of(Pair pair) { return pair + turned(pair); }
 
-    /// A double of this size has no fraction. So adding it to a smaller number rounds the number to
-    /// a whole one in the low bits. This takes a third of the work of a conversion.
+    /// A double of this size has no fraction. So its sum with a smaller number has that number,
+    /// rounded to a whole one, in its low bits. This takes a third of the work of a conversion.
     static constexpr double rounder = 0x1.8p52;
     static constexpr std::uint64_t bits_of_rounder = std::bit_cast<std::uint64_t>(rounder);
     /// Both numbers, rounded to whole numbers; `bits_of_rounder` is added to each.
     static PairOfWords rounded(Pair units) { return std::bit_cast<PairOfWords>(units + rounder); }
 
-    /// Terms of collisions, summed in 64 bits first, because sums in 128
-    /// bits take twice the work. The sum of `most_terms` terms of the size
-    /// `most_gathered` has 62 bits. Each term includes `bits_of_rounder`.
+    /// Terms of collisions, summed in 64 bits first, because sums in 128 bits take twice the work.
+    /// The sum of `most_terms` terms below `most_gathered` is below 2^62. Each term includes
+    /// `bits_of_rounder`.
     struct Gathered {
         PairOfWords normal{}, shear{}, flow{}; ///< both words of `shear` are equal
         std::uint64_t n = 0;
@@ -181,7 +181,7 @@ private:
     std::array<double, n_disc_moments> scales_{}; ///< scales of the sums over discs
     /// Scales of the sums over collisions, with the factors of -1 and 1/2 that their terms have.
     Pair normal_scales_{}, shear_scales_{}, flow_scales_{};
-    double usual_square_ = 0; ///< terms of slower discs below `usual_mass` have at most 62 bits
+    double usual_square_ = 0; ///< if v^2 < this and mass < `usual_mass`, terms have up to 62 bits
     std::vector<std::uint64_t> counts_;
     std::vector<ExactSum> sums_;     ///< the sums without the terms in `gathered_`
     std::vector<Gathered> gathered_; ///< gathered terms of each cell

@@ -34,7 +34,7 @@ void Flights::begin(std::span<const DiscState> discs) {
     if (lengths_) lengths_->begin_anew();
 }
 
-/// The largest velocity component now, or at the start of the displacements.
+/// The largest absolute value of a velocity component of any disc, now or at the start.
 double Flights::fastest_of(std::span<const DiscState> discs) const {
     const double unit = run_.system.velocity_unit();
     double fastest = 0;
@@ -45,7 +45,7 @@ double Flights::fastest_of(std::span<const DiscState> discs) const {
     return run_.ranks.max(fastest);
 }
 
-/// Mean squares of displacements along x and y since the start, and the mean product of velocities.
+/// Mean squares of displacements along x and y, and the mean scalar product of v(start) and v(now).
 std::array<double, 3> Flights::means(std::span<const DiscState> discs, std::uint64_t n_discs) {
     const double time = run_.system.clock(), unit = run_.system.velocity_unit();
     const std::span<const DiscImage> lengths = lengths_ ? lengths_->counts()

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Displacements of discs since a first sample, continued through periodic sides, and the
-// correlation with their first velocities. First positions are stored by id, on any rank
-// (pieces.hpp). Price: 16 bytes a disc, 32 with velocities, and in periodic boxes 16 more; at a
-// sample each disc is sent once.
+// correlation with their first velocities. A disc's id determines the rank that stores its first
+// position (pieces.hpp). Price: 16 bytes a disc, 32 with velocities, and in periodic boxes 16 more;
+// at a sample each disc is sent once.
 #pragma once
 
 #include <array>
@@ -20,14 +20,14 @@ public:
     Flights(MeasuredRun& run, bool have_velocities)
         : run_(run), have_velocities_(have_velocities) {}
 
-    /// Call it before the first step, or at a restart. **Collective.**
+    /// Starts to count crossings of periodic sides. Call it before `begin`. **Collective.**
     void follow();
-    /// Own discs, at positions beyond the periodic sides they have crossed since the last sync.
+    /// This rank's discs; a disc that crossed a periodic side since the last sync is outside of it.
     std::span<const DiscState> flown(std::span<const DiscState> shown);
     /// Starts all displacements at the present positions. **Collective.**
     void begin(std::span<const DiscState> flown);
-    /// Mean squares of displacements along x and y since the beginning, and the mean
-    /// product of velocities. **Collective.**
+    /// Mean squares of displacements along x and y since `begin`, and the mean scalar product of
+    /// the velocities at that time and now. **Collective.**
     std::array<double, 3> means(std::span<const DiscState> flown, std::uint64_t n_discs);
 
     void store(StoredSamples& stored);         ///< **Collective.**
@@ -42,9 +42,9 @@ private:
     bool have_velocities_;
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>>
-        first_places_; ///< first places of the consecutive ids that this rank follows
+        first_places_; ///< first positions, by id, of the discs that this rank keeps
     std::vector<std::array<double, 2>> first_velocities_;
-    /// In a periodic box: the box lengths that discs have crossed since the beginning
+    /// In a periodic box: the box lengths that discs have crossed since `begin`
     std::optional<ImageCounts> lengths_;
     DiscStates flown_;
 };

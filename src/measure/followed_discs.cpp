@@ -85,7 +85,7 @@ void FollowedDiscs::keep(KeptNumbers& kept) {
     lengths_->go_on(places, &FirstPlace::lengths_x, &FirstPlace::lengths_y);
 }
 
-/// Each rank contributes its own words and zeros for the others, so the sum has all words.
+/// Each rank passes the words of its own ids and zeros for other ids, so the sum has all words.
 void FollowedDiscs::keep(KeptNumbers& kept, std::vector<double>& of_discs) const {
     std::vector<std::uint64_t> words;
     if (!kept.is_restored()) {

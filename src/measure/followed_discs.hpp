@@ -3,7 +3,7 @@
 // and along periodic axes relative to the centre of mass. Measurements use
 // these to compare discs with their own states at other times.
 //
-// Discs are kept by ranges of ids (pieces.hpp). Price of a sample: each disc is sent once.
+// Each rank stores a range of ids (pieces.hpp). Price of a sample: each disc is sent once.
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Counts how many box lengths each disc has moved through periodic sides, for displacements and for
 // H5MD's `image`. A sync moves a disc back into the box by whole lengths, which the engine records.
-// Each rank stores the counts of a range of ids (pieces.hpp). Cost: 16 bytes a disc, and at each
-// reading of counts every disc that was moved back since the last reading is sent once.
+// Each rank stores the counts of a range of ids (pieces.hpp). Cost: 16 bytes a disc; each reading
+// of counts sends every crossing since the last reading once.
 #pragma once
 
 #include <span>
@@ -17,12 +17,12 @@
 
 namespace carrom {
 
-/// This rank's discs, at positions beyond the periodic sides they crossed since the last sync.
+/// This rank's discs; a disc that crossed a periodic side since the last sync is outside of it.
 DiscStates flown_on(const DiscSystem& system);
 
 class ImageCounts {
 public:
-    /// Counts from 0, from the present step on. `system` and `ranks` must outlive this.
+    /// Starts with counts of 0 at the present step. `system` and `ranks` must outlive this.
     ImageCounts(DiscSystem& system, const Communicator& ranks);
     ~ImageCounts();
     ImageCounts(const ImageCounts&) = delete;
@@ -32,9 +32,9 @@ public:
     /// FirstPlace that contain them. **Collective.**
     void go_on(std::span<const FirstPlace> stored, double FirstPlace::* x, double FirstPlace::* y);
 
-    /// Counts from 0, from the last sync on.
+    /// Sets all counts to 0, as of the last sync.
     void begin_anew();
-    /// Adds the box lengths by which own discs were moved back into the box other than at syncs.
+    /// Adds crossings of this rank's discs that no sync has recorded.
     void add(std::span<const Crossing> crossings) {
         crossings_.insert(crossings_.end(), crossings.begin(), crossings.end());
     }
@@ -42,8 +42,8 @@ public:
     /// The counts of this rank's range of ids at the last sync. Call it often, because all
     /// crossings since the last call are in memory. **Collective.**
     std::span<const DiscImage> counts();
-    /// Copies the counts into members of `places`, which has the same ids or is empty.
-    /// **Collective.**
+    /// Copies the counts into the members `x` and `y` of `places`, which has the same ids or is
+    /// empty. **Collective.**
     void store(std::vector<FirstPlace>& places, double FirstPlace::* x, double FirstPlace::* y);
     /// The counts of this rank's range of ids at the present step. **Collective.**
     std::vector<DiscImage> now();

@@ -64,8 +64,8 @@ public:
         keep(its);
         if (!its.is_right() || !its.is_at_end()) refuse();
     }
-    /// Stores a setting on which the sums depend. If it differs when it is restored, `is_right`
-    /// becomes false, because the sums are then useless.
+    /// Stores a setting on which the sums depend, or compares it with the stored one. If they
+    /// differ, `is_right` becomes false, because the stored sums are then useless.
     template <class T> void same(const T& value) {
         T found = value;
         (*this)(found);

@@ -2,10 +2,10 @@
 // The interface of a measurement. A quantity is one file in src/measure/quantities: its declaration
 // for scenes and the documentation (scene/quantity.hpp), and the class that samples it.
 //
-// All sums over discs and collisions are counts or in fixed point (exact_sum.hpp). So tables have
-// the same bits on every number of ranks and threads, and after a restart.
-// To add a quantity: copy the file that is most like it, and add its name to the list in
-// src/measure/CMakeLists.txt.
+// Sums over discs and collisions are counts, or are in fixed point (exact_sum.hpp), or are
+// added in a fixed order. So tables have the same bits on every number of ranks and threads,
+// and after a restart. To add a quantity: copy the file of the most similar quantity, rename
+// the quantity in the copy, and add the name of the new file to the list in
 // src/measure/CMakeLists.txt.
 #pragma once
 
@@ -60,8 +60,8 @@ struct MeasuredRun {
 /// `Measurement::sample`.
 struct SampledState {
     std::span<const DiscState> shown;  ///< the discs in the frame of the box
-    std::span<const DiscState> inside; ///< the shown discs that are in the box
-    std::uint64_t n_discs = 0;         ///< number of shown discs on all ranks
+    std::span<const DiscState> inside; ///< the discs of `shown` that are in the box
+    std::uint64_t n_discs = 0;         ///< number of discs in `shown` on all ranks
     Extent box;
     bool is_first = false; ///< the first sample, before which there is no interval
     /// Whether effects have acted at this step after the last interval ended.
@@ -84,15 +84,15 @@ public:
 
     /// Called before the first sample, at its step, but not at a restart that restores sums.
     virtual void begin() {}
-    /// Ends the interval since the last sample. Called before `sample`. If effects change the
-    /// energy at syncs, it is also called before they act, so that integrals over time have the
-    /// values before and after the change.
+    /// Ends the interval since the last sample; called once before each sample but the first. If
+    /// effects change the energy at a sync, it is called before they act, so that the interval has
+    /// only values from before the change.
     virtual void end_interval() {}
     virtual void sample(const SampledState& state) = 0;
     /// Whether samples use velocities. If effects change the energy at syncs, such samples are
     /// taken alternately before and after the effects, so that their mean is the mean over time.
     virtual bool has_velocities() const { return false; }
-    /// Whether a sample moves discs in memory. It is then taken after all others.
+    /// Whether a sample reorders discs in memory. It is then taken after all others.
     virtual bool moves_discs() const { return false; }
 
     /// Visits all numbers that a checkpoint stores. At a restart the same function restores them.
@@ -126,7 +126,7 @@ struct MeasuredQuantity {
     std::vector<std::string_view> other_tables = {};
 };
 
-/// Whether a table can have this name.
+/// Whether a quantity declares a table of this name, which may end in a number as in "profiles_1".
 bool is_name_of_table(std::string_view name);
 
 template <class M>

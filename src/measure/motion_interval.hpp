@@ -33,7 +33,7 @@ public:
     MotionInterval(DiscSystem& system, const Communicator& ranks, const Pending& pending,
                    const MotionSample& last);
 
-    /// The last sample. Its integrals cover the flights since the sync before this sample.
+    /// The last sample. Its integrals cover the flights that the sums of stress lacked then.
     const MotionSample& last() const { return last_; }
     /// A sample of the present step. Its integrals minus the integrals of `last` are the integrals
     /// over the interval. **Collective.**

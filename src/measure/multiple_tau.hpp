@@ -3,11 +3,11 @@
 // Ramirez and others, J. Chem. Phys. 133, 154103 (2010), without its averages over time.
 //
 // Level l keeps every 2^l-th sample, the last `points` of them. The first level has lags of 1 to
-// `points` samples. Each further level has lags of points / 2 + 1 to `points` times 2^l. Each kept
-// sample is an origin, so origins overlap. Lags can be as long as the run, memory grows with the
-// logarithm of its length, and a sample is compared with some 1.5 `points` earlier ones on average.
-// Ramirez averages the samples that a level skips, which blurs lags. Here these samples are left
-// out, because displacements need exact lags.
+// `points` samples. Further levels have lags of 2^l n samples, with n from points / 2 + 1 to
+// `points`. Each kept sample is an origin, so origins overlap. Lags can be as long as the run,
+// memory grows with the logarithm of its length, and a sample is compared with some 1.5 `points`
+// earlier ones on average. Ramirez averages the samples that a level skips, which blurs lags. Here
+// these samples are left out, because displacements need exact lags.
 #pragma once
 
 #include <bit>
@@ -42,7 +42,7 @@ public:
         return level > 0 && n == (points_ / 2) << level;
     }
     std::size_t n_lags(std::uint64_t n) const { return points_ + (n_levels(n) - 1) * points_ / 2; }
-    /// The lag in samples.
+    /// The lag with this index, in samples.
     std::uint64_t lag(std::size_t index) const {
         if (index < points_) return index + 1;
         const std::uint64_t half = points_ / 2, beyond = index - points_;

@@ -14,13 +14,13 @@ namespace carrom {
 
 namespace {
 
-/// The largest number of samples in a run of the planned length. If a condition may end the run,
-/// samples are as close as possible.
+/// About the largest number of samples in a run of the planned length. If a condition may end the
+/// run earlier, samples are as close as `radii_apart` allows.
 constexpr std::int64_t wanted_samples = 32;
-/// Between samples discs at a typical speed move by at least this many radii.
+/// In the mean interval between samples discs at a typical speed move by at least this many radii.
 constexpr double radii_apart = 8;
-/// With more discs psi6 would hardly become more precise, and would take more time than everything
-/// else.
+/// With more discs psi6 would hardly become more precise, and its samples would take more time than
+/// the rest of the run.
 constexpr std::uint64_t most_discs = 4096;
 constexpr double longest_interval = 0x1p40;
 constexpr double golden_ratio = 0.6180339887498949;
@@ -62,7 +62,7 @@ void OrderWatch::start() {
     has_begun_ = true;
 }
 
-/// Shifts each sample by a multiple of the golden ratio, to spread samples over any period.
+/// Shifts samples by multiples of the golden ratio, so that they fall on all phases of any period.
 std::int64_t OrderWatch::step_of_next() const {
     const double next = static_cast<double>(samples_.size() + 1);
     const double shift = next * golden_ratio - std::floor(next * golden_ratio);

@@ -3,11 +3,11 @@
 // discs, and the energy of discs that do not conserve it.
 //
 // A melting crystal has almost the pressure of the fluid, while its order falls by half. So psi6 is
-// sampled in every run that is denser than `least_watched_packing`, or that measures it anyway.
-// Between samples discs at a typical speed move at least eight radii, and a run
-// of the planned length has at most some 32 samples. At `most_samples` every
-// second sample is dropped, and later samples are twice as far apart. Sample
-// times are irregular, so that a periodic drive cannot look like a trend.
+// sampled in every run that is denser than `least_watched_packing`, or that measures it anyway. In
+// the mean interval between samples discs at a typical speed move at least eight radii, and a run
+// of the planned length has at most some 32 samples. At `most_samples` every second sample is
+// dropped, and later samples are twice as far apart. Sample times are irregular, so that a periodic
+// drive cannot look like a trend.
 //
 // Price of a sample of psi6: a microsecond for each of at most 4096 discs, and an exchange of the
 // halo. That is the time of some five collisions of each disc. Memory: 24 bytes a sample.
@@ -39,7 +39,7 @@ class OrderWatch : public StepAction {
 public:
     static constexpr double least_watched_packing = 0.65;
     static constexpr std::size_t most_samples = 64;
-    /// Names of two numbers: the modulus of the mean of psi6, and its mean modulus over discs
+    /// Names of |mean psi6| and mean |psi6|, where the mean is over discs
     static constexpr std::array<const char*, 2> order_names = {"psi6", "local_psi6"};
 
     /// All arguments must outlive this.
@@ -47,12 +47,12 @@ public:
     OrderWatch(const OrderWatch&) = delete;
     OrderWatch& operator=(const OrderWatch&) = delete;
 
-    /// Starts at the present step together with the averages, or continues from a checkpoint.
+    /// Starts at the present step if averages have begun by then, or continues from a checkpoint.
     /// **Collective.**
     void begin(std::span<const std::int64_t> stored = {});
     std::int64_t next_due(std::int64_t step) const override;
     bool act() override;
-    /// The data for a checkpoint; empty if nothing is watched.
+    /// The data for a checkpoint; empty until the first step at which averages begin.
     std::vector<std::int64_t> stored();
 
     std::vector<WatchedNumber> watched() const;

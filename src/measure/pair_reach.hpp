@@ -20,8 +20,8 @@ Key largest_distance_key();
 /// that the region of discs' centres has during the run.
 void check_largest_distance(const SceneDraft& draft);
 /// Stores or restores the largest distance. If the scene sets it, it must not change. The default
-/// may change at a restart, because walls may then move further. In this case the stored distance
-/// is used if the box is large enough for it; otherwise this throws InputError.
+/// changes at a restart with another last step, if walls move until then. The stored distance is
+/// then used if the box stays large enough for it; otherwise this throws InputError.
 void keep_largest_distance(KeptNumbers& kept, const MeasuredRun& run, double& distance);
 
 } // namespace carrom

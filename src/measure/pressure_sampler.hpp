@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pressure tensor between two samples, from the time integral of stress since the last one
+// The mean pressure tensor between two samples, from the time integral of stress since the last one
 // (docs/understanding/pressure.md).
 #pragma once
 
@@ -24,19 +24,19 @@ public:
 
     /// Adds an interval of `steps` steps, and starts the next one. **Collective.**
     void sample(double steps);
-    /// Starts the present interval with the present velocities, because effects have just acted.
+    /// Starts the interval again at this step, with the velocities that effects have just changed.
     /// **Collective.**
     void begin_interval() { interval_.begin(interval_.now()); }
     const std::vector<double>& pressures() const { return pressures_; }
     void forget_pressures() { pressures_.clear(); }
-    /// The last sample. Its speeds and counts are unknown after a restart.
+    /// The last sample. A restart does not restore its mean speeds and counts of collisions.
     const MotionSample& last() const { return interval_.last(); }
     double temperature() const; ///< temperature at the last sample
     // Means over the last interval:
     double mean_temperature() const { return pressures_[pressures_.size() - n_numbers + 3]; }
-    /// The mean kinetic energy; unknown after a restart, and between sheared sides.
+    /// The mean kinetic energy; invalid between sheared sides, and after a restart until a sample.
     double mean_energy() const { return mean_energy_; }
-    /// Time integral of stress times area over the last interval, in steps; it includes the drift.
+    /// Integral of stress times area over the last interval, times in steps; drift is not removed.
     const Tensor& last_integral() const { return last_integral_; }
 
     /// Stores the data of `sampler`, or makes a sampler from stored data before any step.

@@ -127,8 +127,8 @@ void Sampler::end_intervals() {
     for (const auto& measurement : measurements_) measurement->end_interval();
 }
 
-/// Whether the sample at this sync is taken before effects, which alternates. It follows from the
-/// number of samples alone, so that it is the same after a restart.
+/// Whether the sample at this sync is taken before effects; times before and after alternate.
+/// The number of samples alone decides this, so that it is the same after a restart.
 bool Sampler::is_turn_before_effects() const {
     const std::int64_t apart = run_.output.every_steps * run_.scene.micro_steps,
                        samples_between = run_.scene.sync_every /

@@ -24,8 +24,8 @@ namespace carrom {
 /// An action between steps that takes all samples that are due.
 class Sampler : public StepAction {
 public:
-    /// Samples from the present step on, or from the scene's `from_step`. All arguments must
-    /// outlive this. **Collective.**
+    /// Samples from the scene's `from_step` on, or from the present step if that is later. All
+    /// arguments must outlive this. **Collective.**
     Sampler(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks);
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
@@ -78,7 +78,7 @@ private:
     Measurements measurements_;      ///< the quantities
     std::vector<std::string> names_; ///< names of the quantities, in their order
     bool has_begun_ = false;
-    // The last steps at which averages, ends of intervals and samples came before effects:
+    // Last steps at which averages, ends of intervals and samples were taken before effects acted:
     std::int64_t averaged_before_ = -1, ended_before_ = -1, sampled_before_ = -1;
 };
 

@@ -14,9 +14,9 @@ double driven_speed(const SceneParameters& scene);
 /// discs and walls; if that is 0, driven_speed; if both are 0, 1. **Collective.**
 double usual_speed(const MeasuredRun& run);
 
-/// The velocity that a fall adds until the middle of the present sync interval, in scenes with
-/// lasting contacts; otherwise 0. Discs at rest hop from sync to sync, so their velocity in the
-/// middle of the interval is their mean velocity.
+/// The velocity that acceleration adds from now until the middle of the present sync interval, in
+/// scenes with lasting contacts; otherwise 0. Discs at rest hop from sync to sync, so their
+/// velocity in the middle of the interval is their mean velocity.
 struct VelocityChange {
     double x = 0, y = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the motion of discs over a lag depends on the waiting time, which is the time before the
-// lag's origin. In equilibrium nothing depends on it. A glass ages: the longer it has waited, the
-// slower its discs.
+// How the motion of discs over a lag depends on the waiting time, which is the time from the first
+// sample to the lag's origin. In equilibrium nothing depends on it. A glass ages: the longer it has
+// waited, the slower its discs.
 //
 // Origins are averaged over octaves of the waiting time, counted in samples: 0, 1, 2 to 3, 4 to 7,
 // and so on. The pairs of samples are those that multiple_tau.hpp compares anyway, so they cost no
@@ -39,8 +39,8 @@ public:
     /// One row for each octave and lag, for one kind.
     MeasuredTable table(std::string name, std::size_t kind, const MultipleTau& scheme,
                         std::int64_t steps_per_sample) const;
-    /// Compares the scattering function F_s of the earliest origins with that of late origins, in
-    /// octaves that begin after the first quarter of the run.
+    /// Compares the scattering function F_s of the earliest origins with F_s of late origins, which
+    /// are in octaves that begin after the first quarter of the run.
     struct Comparison {
         double early = 0, late = 0;
         std::uint64_t late_from = 0; ///< first sample of the late origins

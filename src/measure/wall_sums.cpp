@@ -43,8 +43,8 @@ std::vector<std::vector<double>> rows_over_time(const MeasuredRun& run,
         std::vector<double>& row = rows.emplace_back(std::vector<double>{from, to});
         for (std::size_t n = 0; n < per_interval; ++n) {
             const std::size_t side = n % 4;
-            // Walls move at constant speed, so their mean length
-            // is the length in the middle of the interval.
+            // Apart from vibrations walls move at constant speed, so the mean length of a side is
+            // its length in the middle of the interval.
             const double length = length_of_side(run.scene, side, (from + to) / 2);
             row.push_back(run.scene.effects.boundaries[side].is_periodic()
                               ? std::nan("")

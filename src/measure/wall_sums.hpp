@@ -20,7 +20,7 @@ namespace carrom {
 /// One sum for each side, in the order of `boundary_names`.
 class WallSums {
 public:
-    /// `largest_sum` bounds the sum of any side's terms; the same on all ranks.
+    /// `largest_sum` bounds each side's absolute sum over all ranks, and is equal on all ranks.
     explicit WallSums(double largest_sum)
         : sums_{ExactSum(largest_sum), ExactSum(largest_sum), ExactSum(largest_sum),
                 ExactSum(largest_sum)} {}
@@ -76,7 +76,7 @@ protected:
     virtual MeasuredTable means_of(const MeasuredTable& history) const = 0;
 
     double speed_scale_ = 0;    ///< typical speed, from which units of sums follow
-    std::vector<double> given_; ///< momentum or energy given at the four sides in each interval
+    std::vector<double> given_; ///< momentum or energy exchanged at each side in each interval
 };
 
 /// The length of a side at a step; between vibrating walls its mean length.

@@ -53,7 +53,7 @@ public:
     std::vector<double> counts() const;
     /// The mean of `numbers`, one for each vector, in each bin; NaN in an empty bin.
     std::vector<double> means(std::span<const double> numbers) const;
-    /// The density modes of some discs: this rank's terms added over all ranks. **Collective.**
+    /// Density modes of the `discs` of all ranks; each rank passes its own discs. **Collective.**
     DensityModes modes(const MeasuredRun& run, std::span<const DiscState> discs) const;
 
 private:
@@ -65,7 +65,7 @@ private:
     std::vector<WaveVector> vectors_;
 };
 
-/// A measurement of waves: sums over all samples, and blocks of samples for errors.
+/// A measurement over wave vectors: sums over all samples, and blocks of samples for errors.
 class WaveMeasurement : public Measurement {
 public:
     void keep(KeptNumbers& kept) override;

@@ -62,9 +62,9 @@ public:
     std::int64_t min(std::int64_t value) const;
     std::uint64_t max(std::uint64_t value) const;
     std::uint64_t min(std::uint64_t value) const;
-    std::uint64_t sum(std::uint64_t value) const; ///< wraps around
+    std::uint64_t sum(std::uint64_t value) const; ///< modulo 2^64
     void sum(std::span<std::uint64_t> values)
-        const; ///< element-wise, in place, wraps around; the same length on all ranks
+        const; ///< element-wise, in place, modulo 2^64; the same length on all ranks
     /// Replaces `value` by its sum over all ranks; its bound must be the same on all ranks
     void sum(ExactSum& value) const;
     std::uint64_t sum_before(

@@ -3,7 +3,7 @@
 //
 // send_to_owners announces sizes with one MPI_Alltoall of 8 bytes per pair of ranks, then sends
 // only the messages that are not empty. The announcement takes longer with more ranks (some 30 us
-// for 1000). A consensus without it (Hoefler, Siebert, Lumsdaine 2010) costs a barrier, whose
+// for 1000). The NBX algorithm without it (Hoefler, Siebert, Lumsdaine 2010) needs a barrier, whose
 // latency is as long unless there are many thousands of ranks.
 #pragma once
 

@@ -66,7 +66,7 @@ void wait_for(Requests& requests);
 void wait_or_abort(MPI_Request& request, const std::string& failure, double patience_seconds,
                    int code);
 
-/// Prints an error in the use of the library, and aborts all ranks with code 70.
+/// Prints `text`, a caller's mistake in using the library, and aborts all ranks with code 70.
 [[noreturn]] void abort_from_mistake(std::string_view text);
 
 /// From now on an error of MPI in `comm` prints rank and text and aborts all ranks.

@@ -11,13 +11,13 @@ namespace carrom {
 
 namespace {
 
-/// The variables in which a launcher stores the number of processes and the number of this one.
+/// The variables in which a launcher stores the number of processes and this process's number.
 struct LauncherVariables {
     const char *size, *rank;
 };
 constexpr std::array known_launchers = {
     LauncherVariables{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"}, // mpirun of Open MPI
-    LauncherVariables{"PMI_SIZE", "PMI_RANK"}, // MPICH's, Intel's, and srun's PMI-2
+    LauncherVariables{"PMI_SIZE", "PMI_RANK"}, // MPICH, Intel MPI, and srun with PMI-2
     LauncherVariables{"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}}; // srun
 
 int number_in(const char* variable) {
@@ -31,7 +31,7 @@ bool has_launcher() {
     constexpr std::array variables = {
         "OMPI_COMM_WORLD_SIZE", // mpirun of Open MPI
         "PMIX_RANK",
-        "PMI_RANK",      // for many launchers, among them srun's and MPICH's
+        "PMI_RANK",      // many launchers, among them srun and MPICH's mpiexec
         "SLURM_STEP_ID", // srun
         "PALS_RANKID",
         "ALPS_APP_PE", // Cray

@@ -20,7 +20,7 @@ namespace {
 constexpr std::chrono::seconds grace(10);
 constexpr std::size_t longest_reason = 2000;
 
-/// The rank that has reported its departure, or -1.
+/// A rank that has reported its departure, or -1.
 int departed_rank(MPI_Comm comm) {
     int is_there = 0;
     MPI_Status status;
@@ -28,7 +28,7 @@ int departed_rank(MPI_Comm comm) {
     return is_there != 0 ? status.MPI_SOURCE : -1;
 }
 
-/// The reason that the departed rank has sent.
+/// Waits for a rank's report of its departure, and returns the reason in it.
 std::string reason_of(int rank, MPI_Comm comm) {
     MPI_Status status;
     MPI_Probe(rank, tag::departure, comm, &status);

@@ -17,7 +17,7 @@ void guard_exit();
 
 /// Starts MPI and ends it. Only the thread that made it may call MPI; a library without
 /// MPI_THREAD_FUNNELED is an error. From then on an MPI error or a failed `ensure` prints rank and
-/// text and aborts all ranks; if memory runs out on any thread, the code is 3. One per program.
+/// text and aborts all ranks; if memory runs out on any thread, the code is 3. A program makes one.
 class Mpi {
 public:
     enum class Start {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exchange with a few known ranks. It carries halos, migrating discs and decisions between
-// neighbouring strips.
+// Exchange with a few known ranks. It carries halos, migrating discs, and messages about
+// collisions of discs of neighbouring strips.
 //
 // Both sides know that they are neighbours, but the receiver does not know the amount of data. The
 // first few kilobytes are sent together with the size in one message, whose receive is posted in
@@ -31,11 +31,11 @@ public:
     NeighbourExchange(NeighbourExchange&&) noexcept;
     NeighbourExchange& operator=(NeighbourExchange&&) noexcept;
 
-    /// Sends out[k] to neighbours[k], and replaces `in` by what they send, grouped in the order of
-    /// `neighbours`. The list holds ranks, each once, in any order; it may be empty and may change
-    /// from call to call. What a rank sends to itself is copied, without a message. If a lists b, b
-    /// must list a in the same call. **Collective**: ranks without neighbours take part, too, at no
-    /// cost.
+    /// Sends out[k] to neighbours[k], and replaces `in` by the items that they send, grouped in the
+    /// order of `neighbours`. This is a list of ranks, each once, in any order; it may be empty and
+    /// may change from call to call. Items from a rank to itself are copied, without a message. If
+    /// rank a lists b, b must list a in the same call. **Collective**: ranks without neighbours
+    /// take part, too, at no cost.
     template <Message T>
     void exchange(std::span<const int> neighbours, const std::vector<std::vector<T>>& out,
                   Received<T>& in) {

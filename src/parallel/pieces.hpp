@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records with ids 0 .. n-1 that lie in any order on any ranks, brought into order piece by piece.
+// Sorts records with ids 0 .. n-1, which are in any order on any ranks, by id, piece by piece.
 //
 // The ids are cut into pieces whose length is a power of two, and each rank owns a run of whole
 // pieces. A counting sort finds the piece of each record. Then, round after round, each rank gets
@@ -75,8 +75,8 @@ public:
 
     const Pieces& pieces() const { return pieces_; }
 
-    /// Returns this rank's piece of the next round in order, whose first id is `begin()`; empty if
-    /// this rank has no more pieces. Valid until the next call. Must be called n_rounds() times by
+    /// Returns this rank's piece of the next round, sorted by id from `begin()` on; empty if this
+    /// rank has no more pieces. Valid until the next call. Must be called n_rounds() times by
     /// every rank. **Collective.**
     std::span<const T> next() {
         const int me = communicator_.rank();
@@ -181,14 +181,14 @@ private:
     IdOf id_of_;
     std::uint64_t n_;
     Pieces pieces_;
-    std::vector<std::uint32_t> order_;          ///< order of this rank's records, piece after piece
-    std::vector<std::uint32_t> first_in_order_; ///< where each piece begins, and the end
+    std::vector<std::uint32_t> order_;          ///< indices of this rank's records, sorted by piece
+    std::vector<std::uint32_t> first_in_order_; ///< where each piece begins in `order_`; the end
     std::uint64_t round_ = 0, begin_ = 0;
     std::vector<T> piece_;
     std::vector<std::uint8_t> is_placed_;
     std::vector<std::vector<T>> out_;
     Received<T> received_;             ///< records from each sender, in the order of pieces
-    std::vector<std::size_t> n_taken_; ///< number of items already used, for each sender
+    std::vector<std::size_t> n_taken_; ///< number of records already placed, for each sender
 };
 
 } // namespace carrom

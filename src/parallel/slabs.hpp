@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records with ids 0 .. n-1 in equal shares by id. This is the layout of arrays that belong to the
-// run and not to a rank.
+// Records with ids 0 .. n-1 in equal shares by id. This is the layout of arrays of all discs, when
+// the ranks that own the discs do not matter.
 #pragma once
 
 #include <algorithm>

@@ -21,15 +21,15 @@ namespace carrom {
 namespace {
 
 constexpr double seconds_between_agreements = 0.5;
-/// No copies are made of states with more discs than this for each rank, on average.
+/// A run makes no copies if its ranks have more discs than this on average.
 constexpr double most_copied = 1e6;
-/// Least seconds between copies, in all and for each disc of a rank. A copy takes some 20 ns a
-/// disc, and about as long again for the data of measurements.
+/// Least seconds between copies: the larger of a constant and a time for each disc of a rank. A
+/// copy takes some 20 ns a disc, and about as long again for the data of measurements.
 constexpr double seconds_between_copies = 0.02, seconds_per_copied_disc = 4e-6;
-/// Seconds for a step after a request to stop. If no copies are made, the step gets twice the time
-/// of the last stretch, but at most `most_patience`, because batch systems soon end the job.
+/// Seconds that a step may take after a request to stop. If no copies are made, it may take twice
+/// the last stretch's time, up to `most_patience`, because batch systems soon end the job.
 constexpr double patience = 1, most_patience = 20;
-constexpr double longest_stretch = 1e15; // longest stretch, in steps
+constexpr double longest_stretch = 1e15; // in steps
 
 } // namespace
 
@@ -67,8 +67,8 @@ bool Checkpoints::act() {
     return goes_on;
 }
 
-/// Facts that are equal on all ranks: whether any rank has a request to stop, and whether a
-/// checkpoint or a copy is due by rank 0's clock. **Collective.**
+/// Returns, with the same result on all ranks, whether any rank has a request to stop, and whether
+/// a checkpoint or a copy is due by rank 0's clock. **Collective.**
 Checkpoints::Updates Checkpoints::updates(std::int64_t step) {
     std::array<std::uint64_t, 5> sums = {is_stop_requested() ? 1u : 0u, 0, 0, 0, 0};
     const double discs_per_rank = static_cast<double>(run_.scene().n_discs) / ranks_.size();
@@ -135,7 +135,7 @@ std::string Checkpoints::keep(std::int64_t step) {
                        run_.scene().packing() * size * size);
 }
 
-/// Runs again from the last stored state to the end of `step`, and stores it. **Collective.**
+/// Runs again from the last stored state to `step`, and stores the state there. **Collective.**
 void Checkpoints::go_over_to(std::int64_t step) {
     if (last_written_ < 0) return;
     SceneParameters scene = run_.scene();
@@ -152,7 +152,7 @@ void Checkpoints::go_over_to(std::int64_t step) {
 }
 
 void Checkpoints::write() {
-    if (removal_.valid()) removal_.get(); // because the space of the removed file may be needed
+    if (removal_.valid()) removal_.get(); // waits: the removed file's space may be needed
     const std::string path = checkpoint_path(wanted_->folder, run_.step());
     run_.write_checkpoint(path, wanted_->transfers);
     record_written(path, run_.step());
@@ -168,8 +168,8 @@ void Checkpoints::record_written(const std::string& path, std::int64_t step) {
     seconds_since_written_ = 0;
 }
 
-/// Freeing the blocks of a large file takes a fifth of the time of writing it, so another thread
-/// does this during the steps.
+/// Freeing the blocks of a large file takes about a fifth of the time that writing it takes, so
+/// another thread does this during the steps.
 void Checkpoints::remove_oldest() {
     const auto n_removed = std::max<std::ptrdiff_t>(
         0, std::ssize(kept_) - static_cast<std::ptrdiff_t>(wanted_->keep));

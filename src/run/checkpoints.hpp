@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Decides when a run stores its state, and which stored states it keeps.
 //
-// After each stretch of steps ranks agree on two questions: has the batch system requested a stop,
-// and is a checkpoint due by wall time? A stretch takes half a second, or one longer step. Cost:
+// After each stretch of steps ranks agree on two questions: has a signal requested a stop, and is a
+// checkpoint due by wall time? A stretch takes half a second, or one longer step. Cost:
 // one reduction a stretch, also without checkpoints, because the run may have to stop.
 //
-// A step that lasts longer than a second after a request is abandoned, and leaves no consistent
-// state. So smaller runs keep a copy of a recent state, which is then written. The copies take
-// about a hundredth of the time.
+// A step that lasts longer than a second after a request to stop is abandoned, and leaves no
+// consistent state. So runs keep a copy of a recent state, which is then written; copies take about
+// 1 % of the time of a run. Runs with many discs a rank make no copies, but wait longer.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ namespace carrom {
 class Checkpoints : public StepAction {
 public:
     /// Stores the state of `run` in the folder of `wanted`. Without `wanted` it only handles
-    /// requests to stop. A run that restarted from a checkpoint of that folder has a checkpoint of
-    /// its first step. `run` must outlive this. **Collective.**
+    /// requests to stop. A run that restarted from a checkpoint of that folder does not
+    /// store its first step again. `run` must outlive this. **Collective.**
     Checkpoints(Run& run, std::optional<CheckpointOutput> wanted);
     ~Checkpoints() {
         if (removal_.valid()) removal_.wait();
@@ -46,13 +46,13 @@ public:
     /// unchanged. **Collective.**
     bool act() override;
 
-    /// Call it after a step was abandoned because of a request to stop. Stores the copy of the last
-    /// state, if there is one. Returns a sentence about the state from which the run can continue.
-    /// **Collective.**
+    /// Call it after a step was abandoned because of a request to stop. Writes the last copy of a
+    /// state to the folder, if there is one. Returns a sentence about the state from which the run
+    /// can continue. **Collective.**
     std::string write_copy();
 
-    /// Call it after discs have jammed. Stores the end of `step`, which the run reaches without a
-    /// jam. Returns a sentence that names the file and the packing in it. **Collective.**
+    /// Call it after discs have jammed. Stores the state at the end of `step`, before the jam.
+    /// Returns a sentence that names the file and the packing in it. **Collective.**
     std::string keep(std::int64_t step);
 
 private:
@@ -80,7 +80,7 @@ private:
     Stopwatch stretch_watch_;
     double seconds_since_written_ = 0; ///< seconds by rank 0's clock
     double seconds_since_copied_ = 0;  ///< seconds by rank 0's clock
-    std::optional<Copy> copy_;         ///< copy of a state since the last written one, or none
+    std::optional<Copy> copy_;         ///< copy of a state after the last written one
     std::vector<std::string> kept_;    ///< paths of the checkpoints, oldest first
     std::future<void> removal_;        ///< the removal of older checkpoints, on rank 0
 };

@@ -109,7 +109,7 @@ std::string text_around(const SceneParameters& scene, const CheckFailure& failur
     if (!scene.effects.species.empty()) set_species(around, scene, failure);
     around.effects.swap = {}; // otherwise discs would exchange their radii
     around.groups.clear();
-    around.freeze.clear(); // because the frozen discs are fixed bodies
+    around.freeze.clear(); // because the frozen discs are already among the fixed bodies
     around.frozen.clear();
     if (!failure.spins.empty()) around.disc_columns.push_back(disc_column_of(SideColumn::spin));
     around.steps = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the few discs around a failed self-check as a scene that can be run again.
+// Writes the few discs around the disc that failed a self-check as a scene that can be run again.
 #pragma once
 
 #include <string>

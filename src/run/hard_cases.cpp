@@ -48,7 +48,7 @@ double blurred_flight(const SceneParameters& scene, double speed) {
     return speed * static_cast<double>(scene.sync_every) * 0x1p-53;
 }
 
-/// Throws if rounding moves discs by a radius, because contacts are then meaningless.
+/// Throws if rounding of times moves a disc by more than a radius: contacts would be meaningless.
 void refuse_blurred_places(const SceneParameters& scene, double speed) {
     const double radii = blurred_flight(scene, speed) / scene.radius;
     if (radii <= 1) return;
@@ -62,10 +62,10 @@ void refuse_blurred_places(const SceneParameters& scene, double speed) {
 
 /// The most ranks, at least 1, whose domains have no more discs in their halos than inside. At a
 /// packing of 0.5 a rank fetches discs from up to h = 8 mean distances away: 16 strips of 1250
-/// discs, 8.8 wide, have 1.65 halo discs for each own one (tests/performance/rank_loads.csv). With
-/// its halo, a strip of width w covers the width w + 2 h, and a square of side s covers (s + 2
-/// h)^2. Halo and domain are equal for a strip with w = 2 h = 16, and for a square with s = 2 h /
-/// (sqrt(2) - 1) = 39, which has 1500 discs.
+/// discs, 8.8 such distances wide, have 1.65 halo discs for each own one
+/// (tests/performance/rank_loads.csv). With its halo, a strip of width w covers the width w + 2 h,
+/// and a square of side s covers (s + 2 h)^2. Halo and domain are equal for a strip with w = 2 h =
+/// 16, and for a square with s = 2 h / (sqrt(2) - 1) = 39, which has 1500 discs.
 double most_ranks_of(const SceneParameters& scene) {
     constexpr double both_sides = 2 * 8;
     constexpr double least_square = both_sides / (std::numbers::sqrt2 - 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Warnings for scenes that are legal but lose digits, and errors for those that would
-// lose discs (docs/understanding/hard-cases.md).
+// Warnings for scenes that are legal but lose digits, and errors for scenes whose results
+// would be wrong (docs/understanding/hard-cases.md).
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace carrom {
 
-/// Warns if discs move noticeably during a rounding error of the time. Throws InputError on every
-/// rank if discs cross a box with periodic sides more often than can be counted. **Collective.**
+/// Warns if rounding of times moves a disc noticeably. Throws InputError on every rank if it moves
+/// one by a radius, or if one crosses a periodic box too often between syncs. **Collective.**
 void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
                        const Communicator& ranks, const Messages& messages);
 

@@ -36,7 +36,7 @@ double smallest_radius(const SceneParameters& scene) {
 std::string remedy_of(const SceneParameters& scene) {
     if (!may_have_lasting_contacts(scene)) return "a longer effects.contact.contact_time";
     const double radius = smallest_radius(scene);
-    // The speed is about 2 g T, with the longest default time T between syncs.
+    // The advised speed is about 2 g T: acceleration g, longest default time T between syncs.
     const double pull = std::hypot(scene.effects.acceleration().x, scene.effects.acceleration().y);
     return fmt::format("{} = {:.1g}", lasting_key, 0.5 * std::sqrt(pull * radius));
 }
@@ -107,9 +107,9 @@ std::string HeapWarning::text_on_flow(double per_step) const {
                         static_cast<double>(scene_.micro_steps);
     // If discs cannot flow for ever, they come to rest, and bursts of collisions end.
     if (!may_flow_on(scene_.effects) || !(per_step * time > most_where_lasting)) return {};
-    // The advised speed is at least that of discs that fall by a radius over each other, because
-    // the flow may still become faster. It is below the limits at which the scene is an error or
-    // impacts lose too much energy.
+    // The advised speed is at least the speed after a fall by a radius, because the flow may still
+    // become faster. It is below the limits at which the scene is an error or impacts lose too
+    // much energy.
     const Acceleration pull = scene_.effects.acceleration();
     const double radius = smallest_radius(scene_),
                  fallen = std::sqrt(2 * std::hypot(pull.x, pull.y) * radius),
@@ -121,7 +121,7 @@ std::string HeapWarning::text_on_flow(double per_step) const {
                        scene_.effects.lasting_speed, lasting_key, best);
 }
 
-/// The mass-weighted standard deviation of the discs' velocities.
+/// Root mean square speed relative to the discs' mean velocity, weighted by mass, per step.
 double HeapWarning::speed_of_passing() const {
     double mass = scene_.effects.species.empty() ? static_cast<double>(scene_.n_discs) : 0;
     for (const Species& one : scene_.effects.species)

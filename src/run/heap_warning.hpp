@@ -8,7 +8,7 @@
 // density. Lasting contacts leave a few collisions of a disc between two syncs. If
 // effects.lasting_contacts.speed is too small for a flow, its discs bounce between neighbours
 // instead, some hundred times until the next sync. Cost: a sum over discs and ranks at each sync,
-// only in scenes with falling discs and losses.
+// only in scenes where discs fall and lose energy.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,8 @@ public:
     bool act() override;
 
 private:
-    /// The text of a warning for this number of collisions of a disc in a step; empty if discs are
-    /// not at rest on each other.
+    /// The text of a warning for this mean number of collisions of each disc in a step; empty if
+    /// discs are not at rest on each other.
     std::string text_on_rest(double per_step) const;
     std::string text_on_flow(double per_step) const; ///< **Collective.**
     double speed_of_passing() const;                 ///< **Collective.**

@@ -59,7 +59,7 @@ void write_tables(const SceneParameters& scene, const std::vector<MeasuredTable>
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }
 
-/// Appends new rows to the table's file. Returns the problem, or empty.
+/// Appends new rows to the table's file. Returns the problem, or an empty text.
 std::string GrowingFiles::add_rows(const MeasuredTable& rows) {
     const std::string path = path_of(scene_, rows);
     const std::string text = n_written_ == 0 ? csv_of(rows, scene_.name) : lines_of(rows.rows);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes measured tables as CSV files: remarks after `#`, a line of names, then numbers that read
-// back with the same bits.
+// Writes measured tables as CSV files: remarks after `#`, a line of column names, then numbers that
+// read back with the same bits.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace carrom {
 
 std::string csv_of(const MeasuredTable& table, const std::string& scene_name);
 
-/// Writes each table that does not grow as a whole file in the scene's folder for measurements,
-/// on rank 0. If one cannot be written every rank throws CollectiveError, code 4. **Collective.**
+/// Rank 0 writes each table that does not grow, and the file tables.h5 of all tables if the scene
+/// wants it. If a file cannot be written every rank throws CollectiveError, code 4. **Collective.**
 void write_tables(const SceneParameters& scene, const std::vector<MeasuredTable>& tables,
                   const Communicator& ranks);
 

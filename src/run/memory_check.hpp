@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks that a run's discs fit into memory; otherwise the system ends it without a message.
+// Checks that a run's discs fit into memory; if not, the system would end it without a message.
 #pragma once
 
 #include "parallel/communicator.hpp"
@@ -8,7 +8,7 @@
 namespace carrom {
 
 /// Throws InputError on every rank if the discs need more memory than a rank has.
-/// `bytes_for_crowds`: extra bytes a disc where discs are clustered, if known. **Collective.**
+/// `bytes_for_crowds`: extra bytes of clusters, divided by the number of discs. **Collective.**
 void check_memory(const SceneParameters& scene, const Communicator& ranks,
                   double bytes_for_crowds = 0);
 

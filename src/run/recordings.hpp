@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The recordings of a run that its scene requires: a trajectory, the collisions in their total
-// order, and measurements, whose tables are written with each checkpoint and at the end. The table
-// "thermo" is written as it grows.
+// order, and measurements. Each commit writes the tables of measurements anew. The table "thermo"
+// is written as it grows.
 //
-// They are committed before each checkpoint, and about once a second for programs that read them.
+// Commits come before each checkpoint, at the end, and about once a second for other readers.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ public:
     /// Makes everything recorded so far permanent. **Collective.**
     void commit() override;
 
-    /// Commits once more at the end of the run. **Collective.**
+    /// Commits at the end of the run, and describes all frames in XDMF. **Collective.**
     void finish();
 
 private:

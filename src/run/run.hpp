@@ -29,14 +29,14 @@ namespace carrom {
 class Run {
 public:
     /// Begins at step 0, or continues from a stored state. A pilot chooses method and micro-steps
-    /// if the scene has `time.accuracy`. Throws InputError on every rank if the scene's numbers
-    /// cannot be resolved. Takes the first sample if it is due. **Collective.**
+    /// if the scene has `time.accuracy`. Throws InputError on every rank, for example if
+    /// discs are too fast. Takes the first sample if it is due. **Collective.**
     Run(SceneParameters scene, RunStart start, const Communicator& ranks, const Tuning& tuning,
         const Messages& messages = {});
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
-    const SceneParameters& scene() const { return scene_; } ///< method and micro-steps are chosen
+    const SceneParameters& scene() const { return scene_; } ///< includes a pilot's choice
     const Communicator& ranks() const { return ranks_; }
     int n_threads() const { return n_threads_; } ///< threads of this rank
     bool is_restart() const { return is_restart_; }
@@ -61,9 +61,9 @@ public:
     /// `[time.stop]` holds.
     std::int64_t last_step() const { return stop_.reason() ? stop_.reason()->step : scene_.steps; }
     const std::optional<StopReason>& stop_reason() const { return stop_.reason(); }
-    /// Advances to the end of `last_step`, or to an earlier end of the run. Returns false if
-    /// another action ended the run. If a check of `check_every_step` fails, the discs around the
-    /// error are written as a scene. **Collective.**
+    /// Advances to the end of `last_step`, or to an earlier end of the run. Returns false if an
+    /// action ended the run without a StopReason. If a check of `check_every_step` fails, the discs
+    /// around the error are written as a scene. **Collective.**
     bool advance_to(std::int64_t last_step);
     const StretchSeconds& seconds() const { return seconds_; }
 

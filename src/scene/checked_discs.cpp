@@ -60,7 +60,7 @@ void check_species(const SceneDraft& draft) {
                                                     lists_bodies ? "discs.list" : "discs.columns"));
 }
 
-/// Checks numbers in columns other than the states (positions and velocities).
+/// Checks the numbers in side columns (core/side_columns.hpp) of `discs.list` and `discs.species`.
 void check_numbers(const SceneDraft& draft) {
     BySideColumn<bool> are_given;
     for (const SideColumn column : given_side_columns)
@@ -113,7 +113,7 @@ void fill_count(const SceneDraft& draft) {
     }
 }
 
-/// Checks that the scene's precision resolves the width of the box and the discs.
+/// Checks that the scene's precision resolves the smallest radius in a box of this width.
 void check_width(const SceneDraft& draft, double smallest_radius) {
     SceneParameters& scene = draft.scene;
     const double l = scene.box.longest(), r = smallest_radius;
@@ -173,7 +173,7 @@ void warn_of_lost_masses(const SceneDraft& draft) {
         heaviest.mass / lightest.mass, most, most * lightest.mass));
 }
 
-/// Discs of radius 0 never collide, so they need contacts "none" and the event-driven method.
+/// Points (radius 0) never meet each other, and they need the event-driven method.
 void check_points(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!scene.are_points) return;
@@ -190,7 +190,7 @@ void check_points(const SceneDraft& draft) {
                              contact, *contact != 0 && *method != 0 ? " and " : "", method));
 }
 
-/// Computes box and radius. Returns true if they are valid and the discs may fit.
+/// Computes the radius, or all radii of a distribution. Returns true if the discs may fit.
 bool fill_sizes(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const Settings& settings = draft.settings;
@@ -252,7 +252,7 @@ void check_triangular(const SceneDraft& draft) {
                                nearest / 2));
 }
 
-/// Checks how discs are placed. A lattice replaces random insertion if the packing exceeds 0.5.
+/// Above a packing of 0.5, a lattice replaces random insertion, except with regions or groups.
 void check_generator(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     check_regions(draft);
@@ -280,7 +280,7 @@ void check_generator(const SceneDraft& draft) {
                               "discs.generator = \"compressed\""));
 }
 
-/// Checks the speeds of the lightest discs, which are the fastest.
+/// Checks the root mean square speed of the lightest discs, which are the fastest in the mean.
 void check_temperature(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!scene.temperature || *scene.temperature == 0) return;

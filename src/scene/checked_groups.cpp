@@ -18,7 +18,7 @@ bool do_overlap(const StartRegion& a, const StartRegion& b) {
     return a.x_low < b.x_high && b.x_low < a.x_high && a.y_low < b.y_high && b.y_low < a.y_high;
 }
 
-/// Radius and mass of the discs of each row, and the checks of groups that need them.
+/// Checks rows of `discs.groups`. Stores the radius and mass of each row of `discs.species`.
 class GroupCheck {
 public:
     explicit GroupCheck(const SceneDraft& draft) : scene_(draft.scene) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks the forms of lists and files of discs.
+// Checks of the columns that `discs.list` and files of discs have.
 #include "scene/data_lines.hpp"
 #include "scene/scene_draft.hpp"
 

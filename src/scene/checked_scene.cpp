@@ -21,7 +21,7 @@ namespace carrom {
 namespace {
 
 /// Converts places from the users' coordinates to those of the computation. Box and origin are
-/// stored before, so the result does not depend on the order of keys.
+/// stored first, so the result does not depend on the order of keys in the input.
 void take_origin(const SceneDraft& draft, std::span<const std::pair<const Key*, Setting*>> right) {
     if (!draft.settings.has("box.origin")) return;
     for (const auto& [key, setting] : right)
@@ -55,7 +55,7 @@ void take_values(const SceneDraft& draft) {
     for (const Table& table : tables()) {
         const auto& all = draft.settings.all();
         if (std::any_of(all.begin(), all.end(), [&table](const Setting& one) {
-                // Needed for names that are both a key and a table, such as 'discs.radius'
+                // 'discs.radius' is a key here; its table exists if the input has keys of it
                 const Key* key = find_key(one.key);
                 return key ? key->table() == table.name : one.key == table.name;
             }))
@@ -74,7 +74,7 @@ void take_values(const SceneDraft& draft) {
     find_origin(draft.scene);
 }
 
-/// Computes defaults that depend on other keys.
+/// Sets members that depend on which keys the input has, or on the columns of its file of discs.
 void derive_defaults(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const Settings& settings = draft.settings;
@@ -115,8 +115,8 @@ bool is_wrong(const SceneDraft& draft, std::string_view key) {
     return draft.settings.has(key) && draft.settings.find(key)->is_wrong;
 }
 
-/// Whether another key of the table has a wrong value, on which the key's meaning may depend: in
-/// tables of sides, contacts and thermostats the kind decides which keys have a meaning.
+/// Whether the key's meaning may depend on another key of its table that has a wrong value: in
+/// tables with a key `kind`, such as [box.left], the kind decides which keys have a meaning.
 bool has_wrong_neighbour(const SceneDraft& draft, const Key& key) {
     if (!find_key(std::string(key.table()) + ".kind")) return false;
     const auto& all = draft.settings.all();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The checks of times, contact times and samples that involve more than one number.
+// Checks of steps, contact times and times of samples that involve more than one key.
 #include <algorithm>
 #include <bit>
 #include <cmath>

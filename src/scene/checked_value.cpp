@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// The word in small letters and without hyphens, so that Nose-Hoover and nosehoover are equal.
+/// The word in small letters, without `-`, `_` and blanks: Nose-Hoover and nosehoover are equal.
 std::string letters_of(std::string_view word) {
     std::string letters;
     for (const char c : word)
@@ -223,7 +223,7 @@ private:
                               takes_list ? "numbers, " + std::string(field.form) : "a number"));
         return {};
     }
-    /// The index of the word among the words of the field.
+    /// The index of the value's word among the words of the field, as the only number.
     Numbers number_of_word(const Value& value, const Field& field, const std::string& name,
                            std::int64_t line) {
         const auto* flag = std::get_if<bool>(&value.data);

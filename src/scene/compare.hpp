@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether two scenes describe the same run. Compares only settings that affect the bits of the
-// result.
+// Tests whether two scenes describe the same run. Compares only settings that affect the bits of
+// the result.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of a scene with coefficients for the contacts of some species only.
+// Rows of scenes that give coefficients of contacts for single species or pairs of species.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ std::vector<Field> contact_fields();
 std::optional<std::size_t> count_species_rows(const SceneDraft& draft);
 bool is_species_row(double number, std::size_t n_rows);
 
-/// Why the three numbers of `row` from index `begin` on are wrong; empty if they are valid.
-/// `why_smooth` is the reason why the last two have no meaning; empty if they have a meaning.
+/// Why restitution, tangential restitution or friction of `row` (indices `begin` to `begin` + 2) is
+/// wrong; empty if all are valid. `why_smooth`: what the last two need, but lack, or empty.
 std::string problem_of_contact_numbers(const Numbers& row, std::size_t begin,
                                        std::string_view why_smooth);
 

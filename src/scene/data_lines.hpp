@@ -21,7 +21,7 @@ namespace carrom {
 
 class DataLines {
 public:
-    /// See LineReader. `begins_list`: the stream is at the first line of the list.
+    /// `begins_list`: the stream is at the first line of the list. LineReader explains the others.
     DataLines(std::istream& stream, const SceneParameters& scene, std::int64_t lines_before,
               std::uint64_t n_bytes = LineReader::no_limit, bool begins_list = true);
 
@@ -46,8 +46,8 @@ void replace_commas(std::string& text);
 
 /// Whether the words are column names: there are several words, and none of them is a number.
 bool are_names(const std::vector<std::string_view>& words);
-/// The column that has this name in header lines of other programs, whether the letters are small
-/// or capital.
+/// The column that a word of a header line names, such as "radius" or "R"; nothing if no column has
+/// this name. Capital letters count as small ones.
 std::optional<DiscColumn> column_of(std::string_view name);
 
 /// The columns of the scene's lines of discs, in their order. `discs.columns` names either all

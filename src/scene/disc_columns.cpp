@@ -19,7 +19,7 @@ struct Row {
     BySideColumn<double> beside;
 };
 
-/// The numbers of the line of disc `id`; nothing if DiscReader would report an error in it.
+/// The line's numbers, with `id` if the line has no id; nothing if one is wrong (reported later).
 std::optional<Row> row_of(const std::vector<std::string_view>& words,
                           const std::vector<DiscColumn>& columns, DiscId id) {
     if (words.size() != columns.size()) return std::nullopt;

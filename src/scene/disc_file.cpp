@@ -109,7 +109,7 @@ private:
         return false;
     }
 
-    /// Uses a comment as names of columns, if it consists of such names and has no other words.
+    /// Takes a comment as the header line if all its words name columns, x and y among them.
     void take_comment(const std::vector<std::string_view>& words) {
         std::string unknown;
         const Columns columns = columns_named(words, unknown);
@@ -146,7 +146,7 @@ private:
                                names_of(columns), names_of(columns_of_lines(scene_))));
     }
 
-    /// Guesses the columns before `discs.columns` from the number of words in a line.
+    /// Guesses from the number of words in a line which columns precede those of `discs.columns`.
     void guess_columns(const std::vector<std::string_view>& words) {
         if (std::ranges::any_of(scene_.disc_columns,
                                 [](DiscColumn column) { return column < DiscColumn::radius; }))
@@ -170,7 +170,7 @@ private:
         found_.settings.push_back(fmt::format("discs.columns=[{}]", list));
     }
 
-    /// Counts the lines with data; the first one has already been read.
+    /// Counts the lines with data. `has_data`: the first of them has already been read.
     void count(bool has_data) {
         std::uint64_t n = has_data ? 1 : 0;
         for (std::string_view line; n <= largest_count && lines_.next(line);)
@@ -188,7 +188,7 @@ private:
     std::string place_;
     LineReader lines_;
     bool is_header_taken_ = false;
-    std::optional<Columns> columns_; ///< set if they are named or guessed
+    std::optional<Columns> columns_; ///< columns of a line, once named or guessed
     SurveyOfDiscs found_;
 };
 

@@ -17,7 +17,7 @@
 namespace carrom {
 
 struct SurveyOfDiscs {
-    /// Settings `key=value` that follow from the file and that the scene does not give
+    /// Settings `key=value` that the file adds to the scene: its columns and its number of discs
     std::vector<std::string> settings;
     /// errors, such as another file format, or columns that differ from those of the scene
     std::vector<Problem> problems;

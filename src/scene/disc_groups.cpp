@@ -13,10 +13,10 @@ namespace carrom {
 
 namespace {
 
-/// The number of groups is limited, because the speeds of each group need sums over all ranks
+/// The largest number of groups; the initial speeds of each group need sums over all ranks
 constexpr std::size_t most_groups = 1000;
 
-/// The indices of the numbers in a row.
+/// The indices of the numbers in a row of `discs.groups`.
 constexpr std::size_t at_count = 0, at_packing = 1, at_species = 2, at_temperature = 3,
                       at_speed = 4, at_region = 5, at_generator = 9, at_freeze = 10;
 constexpr std::array generators = {Generator::random, Generator::lattice, Generator::compressed};
@@ -31,7 +31,7 @@ DiscGroup group_of(const Numbers& n) {
     DiscGroup group;
     if (n[at_count] >= 1 && n[at_count] <= static_cast<double>(largest_count))
         group.count = static_cast<std::uint64_t>(n[at_count]);
-    // This number of a species has not been checked yet
+    // The row's species may be wrong, because it has not been checked yet
     const double species = n[at_species];
     if (species >= 1 && species <= static_cast<double>(largest_count))
         group.species = static_cast<std::size_t>(species) - 1;
@@ -62,7 +62,7 @@ Numbers row_of(const DiscGroup& group) {
     return row;
 }
 
-/// Stores rows that have a count. The others are computed later; then all rows are stored again.
+/// Stores rows that have a count. Other counts are computed later; then all rows are stored again.
 void set_groups(SceneParameters& scene, const Value& value) {
     scene.groups.clear();
     for (const Value& row : std::get<Values>(value.data))
@@ -79,7 +79,7 @@ Value get_groups(const SceneParameters& scene) {
     return {std::move(rows)};
 }
 
-/// Keys that a row of species cannot have together with groups.
+/// Keys that rows of `discs.species` cannot have if the scene has `discs.groups`.
 constexpr std::array<std::pair<std::string_view, std::size_t>, 5> given_by_groups = {
     {{"count", species_row::count},
      {"packing", species_row::packing},
@@ -87,7 +87,7 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 5> given_by_group
      {"share_of_area", species_row::share_of_area},
      {"region", species_row::region}}};
 
-/// Completes the rows of groups and species.
+/// Computes the missing counts in rows of `discs.groups` and `discs.species`.
 class GroupCounts {
 public:
     explicit GroupCounts(const SceneDraft& draft)

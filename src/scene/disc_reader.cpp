@@ -19,7 +19,7 @@ std::optional<std::size_t> place_of_id(const std::vector<DiscColumn>& columns) {
     return static_cast<std::size_t>(found - columns.begin());
 }
 
-/// The member for a column's number; null for the id.
+/// Where the number of a column is stored; null for the column of ids.
 double* place_of(DiscColumn column, InputDisc& disc, SizeAndMass& body,
                  BySideColumn<double>& beside) {
     switch (column) {
@@ -209,7 +209,7 @@ std::string DiscReader::missing_ids() const {
         if (has_seen(id)) continue;
         const DiscId first = id;
         while (id + 1 < seen_.size() && !seen_[id + 1]) ++id;
-        // All larger ids are missing, because none of them has been found
+        // `seen_` ends before the next id, so this id and all larger ones are missing
         if (id + 1 >= seen_.size()) id = scene_.n_discs - 1;
         if (++n_ranges > most_ranges)
             list += ", ...";

@@ -3,11 +3,11 @@
 // into its memory.
 //
 // A line is "id x y vx vy", or has other columns (`discs.columns`), in any order of ids. Columns
-// beyond positions and velocities are only checked here; read_disc_columns reads them. Up to N bits
-// of memory test that every id occurs once. A line takes less than a microsecond. Threads parse the
-// lines together, and then ids are recorded in the order of lines. Without a column of ids, discs
-// are numbered in the order of lines. Positions in lines have the users' origin (scene/places.hpp),
-// except in the lines of `discs.from`, which count from the corner of the box.
+// beyond positions and velocities are only checked here; read_disc_columns reads them. The test
+// that every id occurs once needs up to one bit a disc. Reading takes less than a microsecond
+// a line. Threads parse the lines of a chunk; then ids are recorded in the order of lines. With no
+// column of ids, discs are numbered in the order of lines. Positions are relative to the users'
+// origin (scene/places.hpp), but in lines of `discs.from` to the lower left corner of the box.
 //
 // Problems are collected, not thrown, so that one pass over a file finds them all.
 #pragma once
@@ -29,14 +29,14 @@ namespace carrom {
 
 class DiscReader {
 public:
-    /// This many problems are listed; the rest are counted
+    /// The first problems, up to this number, are listed; further ones are only counted
     static constexpr std::size_t most_problems = 20;
     static constexpr std::size_t most_wrong_lines =
-        1'000'000; ///< reading ends after this many problems, because the file is no list of
-                   ///< discs
+        1'000'000; ///< reading ends after this many problems, because the file is
+                   ///< probably not a list of discs
 
-    /// A function that calls work(first, last) for ranges that together cover 0 .. n - 1, on any
-    /// threads.
+    /// A function that calls work(first, last) for ranges [first, last) that together cover
+    /// 0 .. n - 1, on any threads.
     using InParts =
         std::function<void(std::size_t n, const std::function<void(std::size_t, std::size_t)>&)>;
 
@@ -56,8 +56,8 @@ public:
         std::vector<InputDisc>& chunk, std::size_t limit,
         const InParts& in_parts = [](std::size_t n, const auto& work) { work(0, n); });
 
-    /// All errors of the lines, and missing ids. Call it after `read` has returned false. Not for
-    /// parts, whose line numbers are unknown.
+    /// The first errors of lines, the number of further errors, and missing ids. Call it after
+    /// `read` has returned false. Not for parts of a file, whose line numbers are unknown.
     std::vector<Problem> problems() const;
     /// Whether a part has had no wrong line and no read error so far.
     bool is_flawless() const {
@@ -70,7 +70,7 @@ private:
         std::size_t begin = 0, end = 0; ///< range of the line in `text_`
         std::int64_t number = 0;
         bool is_cut = false;
-        /// Whether the line has a valid id; only then other errors are searched
+        /// Whether the disc has a valid id; other errors are searched only then
         bool has_number = false;
         InputDisc disc;
         std::string fault;
@@ -96,11 +96,11 @@ private:
     /// instead of line numbers
     bool has_lines_;
     std::vector<DiscColumn> columns_;
-    std::optional<std::size_t> place_of_id_; ///< position of the id in a line
+    std::optional<std::size_t> place_of_id_; ///< index of the id among the words of a line, if any
     DataLines lines_;
     DiscId next_id_ = 0; ///< the next id, for lines without ids
     bool are_ids_noted_ = true;
-    std::vector<bool> seen_; ///< ids that have occurred, up to the largest one so far
+    std::vector<bool> seen_; ///< by id: whether it has occurred; grows as needed
     std::uint64_t n_seen_ = 0;
     std::vector<char> text_;
     std::vector<Line> taken_;
@@ -108,7 +108,7 @@ private:
     std::uint64_t n_problems_ = 0;
 };
 
-/// All problems that DiscReader finds in the lines of `stream`; the discs are dropped. The scene
+/// The problems that DiscReader finds in the lines of `stream`; the discs are dropped. The scene
 /// may have problems itself. If its number of discs is 0, missing discs are not reported; if its
 /// box is 0, positions outside of the box are not reported.
 std::vector<Problem> disc_line_problems(std::istream& stream, const SceneParameters& scene);

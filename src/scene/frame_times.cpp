@@ -11,14 +11,14 @@ namespace carrom {
 
 namespace {
 
-/// Equal on all machines: 10^(k / n) is whole or irrational, so no product ends in exactly 0.5.
+/// The step of frame k. 10^(k / n) is whole or irrational, not a half, so machines round it alike.
 double growing_step(const TrajectoryOutput& output, std::int64_t k) {
     return std::round(
         static_cast<double>(output.every_steps) *
         std::pow(10.0, static_cast<double>(k) / static_cast<double>(output.frames_per_decade)));
 }
 
-/// The first k whose step is later than `step`, which is at least `every_steps`.
+/// The first frame k whose step is later than `step`; `step` must be at least `every_steps`.
 std::int64_t first_beyond(const TrajectoryOutput& output, std::int64_t step) {
     const double decades = std::log10(static_cast<double>(step) /
                                       static_cast<double>(output.every_steps));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The steps that have a frame in a trajectory: step 0, and then regular steps, or steps that grow
-// by a factor, because a slow liquid changes in each decade of time.
+// The steps that have a frame in a trajectory: step 0, and then steps at equal distances, or steps
+// that grow by a constant factor, because a slow liquid changes in each decade of time.
 #pragma once
 
 #include <cstdint>

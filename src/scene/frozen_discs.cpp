@@ -25,7 +25,7 @@ std::uint64_t n_below(const std::vector<FrozenDisc>& frozen, DiscId end) {
         frozen.begin());
 }
 
-/// Removes the frozen discs from runs of ids that end at `end`.
+/// Removes the frozen discs from runs of consecutive ids, and the runs that become empty.
 template <class Run> void shorten(std::vector<Run>& runs, const std::vector<FrozenDisc>& frozen) {
     for (Run& run : runs) run.end -= n_below(frozen, run.end);
     DiscId begin = 0;
@@ -33,7 +33,7 @@ template <class Run> void shorten(std::vector<Run>& runs, const std::vector<Froz
                   [&begin](const Run& run) { return std::exchange(begin, run.end) == run.end; });
 }
 
-/// Removes the frozen discs from parts that have counts, in the order of ids.
+/// Subtracts the frozen discs from the counts of species or groups, which are in the order of ids.
 template <class Part>
 void subtract(std::vector<Part>& parts, const std::vector<FrozenDisc>& frozen) {
     DiscId begin = 0;

@@ -21,9 +21,9 @@ std::vector<Key> keys_of_freezing();
 /// Why these discs, in the order of ids, cannot be fixed bodies; empty if they can.
 std::string problem_of_frozen(const SceneParameters& scene, const std::vector<FrozenDisc>& frozen);
 
-/// Makes the discs fixed bodies, and adds the setting that lists them. The scene must freeze discs
-/// but not contain the frozen ones yet. `has_others_alone`: the scene's species already lack the
-/// frozen discs, because the species come from a state that has only the moving discs.
+/// Makes the discs fixed bodies, and adds the setting that lists them. The scene must have a key
+/// that freezes discs, and no frozen discs yet. `has_others_alone`: the scene's species already
+/// lack the frozen discs, because these species come from a checkpoint of the moving discs.
 void set_frozen(SceneParameters& scene, std::vector<FrozenDisc> frozen,
                 bool has_others_alone = false);
 
@@ -33,7 +33,7 @@ bool is_of_frozen(std::string_view setting);
 /// Checks the regions of `discs.freeze`.
 void check_freezing(const SceneDraft& draft);
 
-/// Makes the discs of the setting `discs.frozen` fixed bodies, after all other checks.
+/// Checks the discs in the setting `discs.frozen`, and makes them fixed bodies if no check failed.
 void take_frozen(const SceneDraft& draft);
 
 } // namespace carrom

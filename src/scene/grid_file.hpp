@@ -7,10 +7,10 @@
 
 namespace carrom {
 
-/// Reads the rows, whose numbers are separated by blanks or commas. Empty lines and text after a #
-/// are ignored. Returns text such as "[[1, 2], [3, 4]]". Throws InputError with the line if the
-/// file cannot be read, a word is not a finite number, rows differ in length, or there are more
-/// than `most` numbers.
+/// Reads rows of numbers that are separated by blanks or commas. Empty lines and text after a # are
+/// ignored. Returns text such as "[[1, 2], [3, 4]]". Throws InputError with the line if the file
+/// cannot be read, a word is not a finite number, rows differ in length, or the file has more than
+/// `most` numbers.
 std::string read_rows(const std::string& path, std::size_t most);
 
 } // namespace carrom

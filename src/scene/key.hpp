@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The only declarations of scene keys. The reader of scenes and its checks, `--set`, the
-// comparison at a restart, the writer of scenes and the reference page all use them.
+// Scene keys are declared once, with the types of this file. The reader of scenes, its checks,
+// `--set`, comparisons at restarts, the writer of scenes and the reference page use them.
 //
 // To add a key: add a member to SceneParameters, and declare the key in the file of its effect or
-// side, or in a keys_of_*.cpp. If it cannot be combined with another key, add a rule there, or a
-// row in rules.cpp.
+// kind of side, or in a keys_of_*.cpp. If it cannot be combined with another key, add a rule in the
+// same file or in rules.cpp.
 #pragma once
 
 #include <functional>
@@ -42,12 +42,12 @@ struct Dimension {
 /// The dimension of a unit such as "mass length^2/step^2". Other words are ignored.
 Dimension dimension_of(std::string_view unit);
 
-/// The allowed range of a number; the ends are included.
+/// The allowed range of a number. The ends are included, but `low` is not if `excludes_low` is set.
 struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
     bool excludes_low = false;
-    bool allows_zero = false; ///< whether 0 is allowed, too
+    bool allows_zero = false; ///< whether 0 is allowed even outside of the range
     std::string_view why = "";
 };
 
@@ -55,17 +55,17 @@ struct Range {
 struct Need {
     std::string text; ///< describes the missing condition, after the words "has no meaning"
     std::function<bool(const SceneParameters&)> holds;
-    bool is_of_generator = false; ///< the condition depends on discs.generator only
+    bool is_of_generator = false; ///< the condition concerns how discs are generated
 };
 
-/// A number of a table, or all numbers of a row: Kind::tables has one field for each key of a
-/// table, Kind::rows one field without a name. Numbers that the form calls x or y, or x0, y0, x1
-/// and so on, are places (scene/places.hpp).
+/// The numbers of one key of a table, or all numbers of a row: Kind::tables has one field for each
+/// key of a table, Kind::rows one field without a name. Numbers that the form calls x or y, or x0,
+/// y0, x1 and so on, are places (scene/places.hpp).
 struct Field {
     std::string_view name;
     std::string_view form; ///< the shape of the numbers, such as "[x, y, radius]"
     std::size_t least = 1, most = 1;
-    std::optional<double> fallback = {}; ///< NaN: the number may be missing
+    std::optional<double> fallback = {}; ///< default; NaN: may be missing; unset: required
     /// The allowed words; the stored number is the index of the word. The words "false" and "true"
     /// of a flag have no quotes.
     std::vector<std::string_view> words = {};
@@ -73,7 +73,7 @@ struct Field {
     bool is_flag() const { return !words.empty() && words.front() == "false"; }
 };
 
-/// A key of scenes, made by the function `key` (key_members.hpp). The functions below that return
+/// A key of scenes, made by a function of key_members.hpp. The functions below that return
 /// `Key&&` complete the declaration.
 struct Key {
     std::string name;
@@ -81,21 +81,21 @@ struct Key {
     std::string_view fallback = ""; ///< describes the default, if words are better than the value
     Range range = {};
     std::optional<Need> need = {};
-    bool is_required = false;                      ///< required if its condition holds
+    bool is_required = false;                      ///< the input must give it if `need` holds
     bool is_seed = false;                          ///< replicas get different values
     bool is_physical = true;                       ///< a restart cannot change it
     std::vector<std::string_view> instead_of = {}; ///< keys that cannot be given together with it
-    /// Keys one of which may be given instead, if this key is required
+    /// If the key is required: keys each of which may be given instead of it
     std::vector<std::string_view> or_from = {};
     std::string_view old_name = "";
-    /// Names in other programs, and the advice for each.
+    /// Words that other programs use as values of this key, and the advice for each.
     std::vector<std::pair<std::string_view, std::string_view>> advice = {};
     std::vector<Field> fields = {};
     /// For Kind::rows: a single row may be written without the outer brackets
     bool is_one_row = false;
     std::optional<Axis> axis = {}; ///< the axis, if the number is a coordinate
 
-    // The following members are filled in from the member of SceneParameters for this key.
+    // The functions of key_members.hpp set the following from the key's member of SceneParameters.
     Kind kind = Kind::number;
     std::vector<std::string_view> words = {};
     /// Old words of the key, each with the word that replaces it
@@ -103,7 +103,7 @@ struct Key {
     /// Returns the value, or nothing if it need not be written.
     std::function<Value(const SceneParameters&)> get = {};
     std::function<void(SceneParameters&, const Value&)> set = {};
-    /// Whether two scenes have the same value of the key; set if `get` does not return all of it.
+    /// Whether two scenes have equal values of the key; set if `get` returns only part of a value.
     std::function<bool(const SceneParameters&, const SceneParameters&)> compare = {};
 
     using Names = std::vector<std::string_view>;
@@ -134,13 +134,13 @@ struct Key {
     bool has_meaning(const SceneParameters& scene) const { return !need || need->holds(scene); }
 };
 
-/// A table of the scene that contains keys.
+/// A table of a scene's TOML text, such as [time].
 struct Table {
     std::string name;
     std::string_view help = "";
     bool (*is_in)(const SceneParameters&) = [](const SceneParameters&) { return true; };
     void (*create)(SceneParameters&) = [](SceneParameters&) {};
-    bool is_like_another = false; ///< the reference describes only one of several equal tables
+    bool is_like_another = false; ///< the reference page describes an equal table instead
 
     /// Whether a scene may leave out the table because its feature is optional.
     bool is_optional() const { return !is_in(SceneParameters{}); }
@@ -149,13 +149,13 @@ struct Table {
 /// Two features that cannot be combined.
 struct Rule {
     std::string_view one, other, why;
-    /// The problem is reported at the first of these keys that the scene has
+    /// A scene that breaks the rule gets an error at the first of these keys that it contains
     std::vector<std::string_view> keys;
-    std::optional<BoundaryKind> boundary = {}; ///< if set: or else at a side of this kind
+    std::optional<BoundaryKind> boundary = {}; ///< or the error is at a side of this kind
     bool (*is_broken)(const SceneParameters&);
 };
 
-/// All keys, in the order of the reference.
+/// All keys, in the order of the reference page docs/reference/keys.md.
 const std::vector<Key>& keys();
 const std::vector<Table>& tables();
 const std::vector<Rule>& rules();
@@ -168,7 +168,7 @@ const Table* find_table(std::string_view name);
 Effects per_micro_step(const SceneParameters& scene);
 
 std::vector<Key> keys_of_discs();
-std::vector<Key> keys_of_sizes(); ///< the keys of discs.radius as a table
+std::vector<Key> keys_of_sizes(); ///< the keys of the table [discs.radius]
 std::vector<Key> keys_of_time();
 std::vector<Key> keys_of_machine();
 std::vector<Key> keys_of_effects();

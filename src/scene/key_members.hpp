@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Completes a key from a member of SceneParameters: kind, words, and how its value is read and set.
+// Makes keys for members of SceneParameters. The member's type gives the key's kind and its words.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ template <class Enum> struct Word {
     Enum value;
     std::string_view old_name = "";
 };
-/// Clang 14 does not deduce this template argument by itself.
+/// Needed by Clang 14, which does not deduce `Enum` from the members of a Word.
 template <class Enum> Word(std::string_view, Enum) -> Word<Enum>;
 
 /// The words that stand for the values of an enumeration in scenes.
@@ -86,7 +86,7 @@ template <class T> inline constexpr bool is_list<std::vector<T>> = true;
 template <class T> inline constexpr bool is_optional = false;
 template <class T> inline constexpr bool is_optional<std::optional<T>> = true;
 
-/// A row is a struct that contains only doubles, in the order of the row.
+/// The members of `Row`, a struct of doubles only, in the order of the numbers in a scene's row.
 template <class Row> using RowNumbers = std::array<double, sizeof(Row) / sizeof(double)>;
 
 template <class Member> constexpr Kind kind_of() {
@@ -188,7 +188,7 @@ inline Key named_key(std::string name, std::string_view unit, std::string_view h
     return named;
 }
 
-/// A complete key. `member` returns a reference to the key's member of a scene, which may be const.
+/// The key of the member to which `member(scene)` returns a reference; the scene may be const.
 template <class Get>
 Key key(std::string name, std::string_view unit, std::string_view help, const Get& member) {
     Key declared = named_key(std::move(name), unit, help);

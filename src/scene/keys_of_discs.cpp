@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The list of the keys of [discs], some of which other files declare, and size and origin of [box].
+// Lists the keys of [discs], some of which other files declare, and size and origin of [box].
 #include <algorithm>
 
 #include "scene/disc_columns.hpp"
@@ -48,7 +48,7 @@ const Need seeded{
     "where discs are listed with their velocities",
     [](const SceneParameters& s) { return s.generator != Generator::file || s.draws_velocities; },
     true};
-/// Rows are [x, y], or [x, y, vx, vy] followed by radius and mass, or by the spin, or by all three.
+/// Rows are [x, y] or [x, y, vx, vy]; radius and mass, the spin, or all three may follow vy.
 /// The order of rows gives the ids.
 void set_list(SceneParameters& scene, const Value& value) {
     bool have_spins = false;
@@ -132,7 +132,7 @@ Key radius_key() {
     return radius;
 }
 
-/// Defines the radius by a packing fraction. The scene stores only the computed radius.
+/// Defines the radius, or the number of discs, by a packing fraction, which is not stored itself.
 Key packing_key() {
     Key key =
         named_key("discs.packing", "1",
@@ -149,7 +149,7 @@ Key packing_key() {
     return key;
 }
 
-/// The key of N, the number of discs. N is 0 until `discs.file` or `discs.from` is read.
+/// The key of N, the number of discs. While only an unread file of discs could give N, it is 0.
 Key count_key() {
     Key count = key("discs.count", "discs",
                     "N, the number of discs; a list, a file, species or groups give it too.",

@@ -9,9 +9,9 @@ namespace carrom {
 namespace {
 
 constexpr Range every{1, largest_steps};
-constexpr Range at_least_one{.low = 1}; ///< range of the number of words
+constexpr Range at_least_one{.low = 1}; ///< range of the number of words in a list
 
-/// Makes a key for a word that the scene stores as text. An empty word is not written.
+/// Makes a key whose value is a word. `word_of` returns the word, or "" if none; `take` stores it.
 Key choice(std::string name, std::string_view help, std::vector<std::string_view> words,
            std::string (*word_of)(const SceneParameters&),
            void (*take)(SceneParameters&, const std::string&)) {

@@ -60,7 +60,7 @@ void set_species(SceneParameters& scene, const Value& value) {
     }
 }
 
-/// Splits the discs of a species into rows: a row ends where a number or the region changes.
+/// Splits species into rows to be written. A row ends where a number, region or input row changes.
 class SpeciesRows {
 public:
     explicit SpeciesRows(const SceneParameters& scene)
@@ -70,8 +70,8 @@ public:
                 numbers_[column] = scene.first_numbers[column];
     }
 
-    /// The row for the next discs of a species, from `first` on. Lowers `end` to the end of the
-    /// row if the row ends before.
+    /// The row for the next discs of the species, from id `first` on. If the row ends before the
+    /// id `end`, lowers `end` to the end of the row.
     Numbers next(const Species& one, DiscId first, DiscId& end) {
         Numbers row(species_row::share_of_area + 1, not_given);
         row[species_row::radius] = one.radius;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The legacy text format: N, L, r, S and `print` or `perf`, one per line, then nothing or N lines
-// "id x y vx vy". Before such lines `print` or `perf` may be left out.
+// The legacy text format has an entry per line: number of discs N, box edge L, radius r, number of
+// steps S, `print` or `perf`. N lines "id x y vx vy" may follow; the last entry is optional then.
 #pragma once
 
 #include <string>

@@ -94,11 +94,11 @@ struct Room {
     double low = 0, high = 0;
 };
 
-/// Bounds of centres. They allow for rounding of L - r here and in the program that wrote the
-/// input, an ulp of L, at most 2^-52 L. Discs depart when they are a radius beyond an open side.
+/// Bounds of centres. They are wider by 2^-52 L, because L - r is rounded here and in the program
+/// that wrote the input. Discs depart when their centres are a radius beyond an open side.
 Room room_along(Axis axis, const SceneParameters& scene, double radius) {
     const bool is_x = axis == Axis::x;
-    const Extent walls = extent_at(scene.effects, scene.box, 0); // at time 0: sides may swing
+    const Extent walls = extent_at(scene.effects, scene.box, 0); // at time 0: walls may oscillate
     const double length = along(axis, scene.box), slack = 0x1p-52 * length;
     if (is_x ? scene.effects.is_periodic_x() : scene.effects.is_periodic_y()) return {0, length};
     const auto inwards = [&](std::size_t side) {

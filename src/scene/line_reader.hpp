@@ -2,8 +2,8 @@
 // Reads lines of a stream in bounded memory, so that a line without an end does not fill the
 // memory.
 //
-// It reads whole blocks. So after the last line, other readers of the stream do not find the text
-// that follows directly.
+// It reads whole blocks. So after the last line, the position of the stream is usually beyond the
+// end of that line.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ public:
     static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
     /// `lines_before`: the number of lines read before, which is added to line numbers. Lines that
-    /// begin after `n_bytes` are left out. The stream must outlive the reader.
+    /// begin after the next `n_bytes` bytes are left out. The stream must outlive the reader.
     LineReader(std::istream& stream, std::int64_t lines_before, std::uint64_t n_bytes = no_limit);
 
-    /// The next line without its end; false at the end of the stream. `line` is valid until the
-    /// next call. A line longer than `longest_line` is cut there and the rest is skipped; if more
-    /// than `most_skipped` characters have to be skipped, the stream counts as ended.
+    /// Gives the next line without its line end; false at the end of the stream. `line` is valid
+    /// until the next call. Of a line longer than `longest_line` the rest is skipped; if the rest
+    /// has more than `most_skipped` characters, the stream counts as ended.
     bool next(std::string_view& line);
 
     std::int64_t line_number() const { return line_number_; }

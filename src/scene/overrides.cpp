@@ -39,8 +39,8 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given, 
     });
 }
 
-/// Stores the valid settings in scenes, except lists of rows, because they are long, and tables
-/// that a scene may lack.
+/// Stores the valid settings in scenes. Lists of rows are left out, because they are long, and so
+/// are the keys of tables that a scene may lack.
 void take_right_values(const std::vector<Setting>& all,
                        std::initializer_list<SceneParameters*> scenes) {
     for (const Setting& one : all) {
@@ -48,7 +48,7 @@ void take_right_values(const std::vector<Setting>& all,
         if (!key || one.is_wrong || key->has_rows() || find_table(key->table())->is_optional())
             continue;
         Setting setting = one;
-        Problems ignored; // problems are reported elsewhere
+        Problems ignored; // fill_scene reports problems
         check_value(*key, setting, ignored);
         if (setting.is_wrong) continue;
         for (SceneParameters* scene : scenes) key->set(*scene, setting.value);
@@ -79,7 +79,7 @@ void remove_keys_of_other_kinds(Settings& settings, const Settings& given) {
     }
 }
 
-/// Reports errors of the input even if the command line replaces the setting.
+/// Reports wrong values in the input even if the command line replaces these settings.
 void check_replaced(Settings& settings, const Settings& given, Problems& problems) {
     for (Setting& setting : settings.all()) {
         const Key* key = find_key(setting.key);
@@ -103,7 +103,7 @@ void remove_other_forms(Settings& settings, const Settings& given) {
     });
 }
 
-/// Removes settings of the input that the settings of the command line exclude.
+/// Removes settings of the input that cannot be combined with those of the command line.
 void remove_rivals(Settings& settings, const Settings& given) {
     const bool were_listed = list_discs(settings);
     for (const Key& key : keys()) {

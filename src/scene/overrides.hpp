@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Overrides: settings `key=value` from the command line, Python or a checkpoint. They replace equal
-// keys of the input, and keys that they exclude: `discs.packing` replaces a radius, and another
-// generator replaces the keys that have no meaning for it.
+// Overrides: settings `key=value` from the command line, Python or a checkpoint. They replace the
+// same keys of the input, and remove keys that they exclude: `discs.packing` removes a radius, and
+// another generator removes the keys that have no meaning for it.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace carrom {
 void add_overrides(Settings& settings, Problems& problems,
                    const std::vector<std::string>& overrides);
 
-/// The problem with a text that has no key or no `=`.
+/// The error message for an override that has no key or no `=`.
 std::string form_problem(const std::string& text);
 
 } // namespace carrom

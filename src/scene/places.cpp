@@ -23,8 +23,8 @@ std::optional<Axis> axis_of_name(std::string_view name) {
     return name[0] == 'x' ? Axis::x : Axis::y;
 }
 
-/// The axis of each number in a form. If a text has several forms, the last one is used, which is
-/// the longest.
+/// The axis of each of the `n` numbers in a form such as "[x, y, radius]". If `form` contains
+/// several forms, the last one is used, which is the longest.
 std::vector<std::optional<Axis>> axes_of(std::string_view form, std::size_t n) {
     std::vector<std::optional<Axis>> axes;
     bool goes_on = false;

@@ -7,9 +7,9 @@
 // A key declares which of its numbers are places: by `place_along`, or by the names in the form of
 // its rows. Values of keys are converted just before the scene stores them, and back for output.
 //
-// The conversion is a sum, which rounds by at most half a unit in the last place of the larger
-// coordinate. A conversion to the users' coordinates and back rounds only once: ((u + v) - v) + v =
-// u + v and so on (D. E. Knuth, The Art of Computer Programming, vol. 2, section 4.2.2, theorem D).
+// The conversion is a sum, rounded by at most half a unit in the last place of the result. After
+// one conversion back and forth, further ones change nothing: (((u + v) - v) + v) - v = (u + v) - v
+// in rounded sums (D. E. Knuth, The Art of Computer Programming, vol. 2, section 4.2.2, theorem D).
 #pragma once
 
 #include <cstddef>
@@ -20,18 +20,18 @@
 
 namespace carrom {
 
-/// The axis of a number of a row, or of the single number of a key; nothing if the number is not a
-/// place.
+/// The axis of the number with index `number` in a row of the key, or of the key's only number
+/// (index 0); nothing if it is not a place.
 std::optional<Axis> axis_of(const Key& key, std::size_t number);
 bool has_places(const Key& key);
 
 /// Adds dx or dy to all coordinates in the value of `key`, whose form must have been checked.
 void move_places(const Key& key, Value& value, double dx, double dy);
 
-/// Sets an origin that is the centre of the box. The box is 0 if its value is wrong.
+/// Computes an origin that is given as "centre": half the edges of the box, which are 0 if wrong.
 void find_origin(SceneParameters& scene);
 
-/// The shortest decimal from which the coordinate `place` can be read back exactly.
+/// The shortest decimal of `place` in users' coordinates from which it can be read back exactly.
 std::string shown_coordinate(double place, double origin);
 /// Text such as "(1.5, -2)", in users' coordinates.
 std::string shown_place(const SceneParameters& scene, double x, double y);

@@ -9,7 +9,7 @@ namespace carrom {
 
 namespace {
 
-/// A local static, because declarations may come before this file's static data are
+/// A local static, because declarations may be stored before this file's static data are
 /// initialised.
 std::vector<Quantity>& list() {
     static std::vector<Quantity> declared;

@@ -2,7 +2,7 @@
 // The declaration of a quantity of [output.measurements]: its keys, rules of conflict, checks, and
 // text for the pages. The code that measures it is in a higher module, src/measure, and so is its
 // declaration. A program that measures stores the declarations here when it starts. The reader, the
-// pages and the checks loop over the list, so they contain the name of no quantity.
+// pages and the general checks loop over the list, so they need not name any quantity.
 #pragma once
 
 #include <string>
@@ -20,10 +20,10 @@ struct Quantity {
     bool needs_lasting_sides = false; ///< whether its table needs sides of constant lengths
     std::vector<Key> keys = {};      ///< settings of the quantity; several quantities can share one
     bool has_history = false;        ///< whether its tables grow with each sample
-    bool follows_collisions = false; ///< whether it needs each collision; GPUs do not record them
+    bool follows_collisions = false; ///< whether it needs each collision, which GPUs do not record
     std::vector<Rule> rules = {};    ///< features with which it cannot be combined
-    void (*check)(const SceneDraft&) = {}; ///< called if box and discs are valid; a check that
-                                           ///< quantities share runs once
+    void (*check)(const SceneDraft&) = {}; ///< called if box and discs are valid; runs once even
+                                           ///< if several measured quantities have this check
     void (*check_times)(const SceneDraft&) = {}; ///< called when the times of the scene are known
 };
 
@@ -32,8 +32,8 @@ void declare_quantities(std::vector<Quantity> quantities);
 
 const std::vector<Quantity>& declared_quantities();
 
-/// The key that lists the quantities to measure. If a quantity's setting is missing in the scene,
-/// its problems are reported at this key.
+/// The key that lists the quantities to measure. A problem with a setting of a quantity that the
+/// scene does not contain is reported at this key.
 inline constexpr std::string_view quantities_key = "output.measurements.quantities";
 
 inline bool measures(const SceneParameters& scene, std::string_view quantity) {
@@ -57,7 +57,7 @@ struct QuantitySetting {
                 std::string_view by_default = "") const;
 };
 
-/// The keys of all quantities, each with the quantities that need it.
+/// The keys of all quantities. Each has a meaning only if a quantity that uses it is measured.
 std::vector<Key> keys_of_quantities();
 std::vector<Rule> rules_of_quantities();
 

@@ -3,8 +3,8 @@
 // 0 reads the file, and every rank reads the same text, so all find the same scene or the same
 // problems.
 //
-// A name that ends in `.toml` is a TOML scene. Other names, and standard input, have the legacy
-// text format. All problems are collected and thrown together as an InputError, each with its line.
+// A file whose name ends in `.toml` is a TOML scene. All other input has the legacy text format.
+// Problems are collected and thrown together as an InputError, each with its line.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace carrom {
 struct SceneText {
     std::string name;
     std::string text;
-    std::int64_t lines_before_discs = 0; ///< legacy text: number of lines taken from the stream
+    std::int64_t lines_before_discs = 0; ///< legacy text: number of lines read from the stream
     bool discs_follow = false;           ///< legacy text: the stream continues with lines of discs
     /// The columns of discs, set when the scene is known to have any (`discs.columns`). Before
     /// that, sizes are not checked
@@ -40,7 +40,7 @@ std::ifstream open_input(const std::string& path);
 /// is one. Called on one rank.
 SceneText read_scene_text(std::istream& stream, const std::string& name);
 
-/// The scene of `input`, in which `overrides`, each of the form "key=value", replace settings. A
+/// Reads the scene of `input`; `overrides`, each of the form "key=value", replace its settings. A
 /// problem in an override has the place "--set KEY". A pure function: the same arguments give the
 /// same scene or the same InputError.
 SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides = {});
@@ -51,7 +51,7 @@ SceneParameters read_scene(const SceneText& input, const std::vector<std::string
 SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides,
                            std::vector<Problem>& problems);
 
-/// Reads a scene from a whole text, with the discs in it.
+/// Reads a scene from a whole text. Lines of discs after a legacy header are not read.
 SceneParameters read_scene(std::string_view text, const std::string& name,
                            const std::vector<std::string>& overrides = {});
 

@@ -17,7 +17,7 @@ inline bool has_open(const SceneParameters& s) { return s.effects.have_open_boun
 inline bool has_moving(const SceneParameters& s) {
     return has_boundary(s.effects, BoundaryKind::moving);
 }
-/// Whether there are fixed bodies, or discs that will freeze and become obstacles.
+/// Whether there are fixed bodies, or discs that will freeze and become fixed bodies.
 inline bool has_fixed_bodies(const SceneParameters& s) {
     return s.effects.fixed_bodies.are_any() || s.freezes();
 }

@@ -23,7 +23,7 @@ struct SceneDraft {
     SceneParameters& scene;
     Settings& settings;
     Problems& problems;
-    const DiscColumns* columns = nullptr; ///< columns in the file of discs
+    const DiscColumns* columns = nullptr; ///< columns of the file of discs; null if not read
 
     /// Adds a problem at the first of these keys that the input has, or at the whole scene.
     template <class Keys> void refuse_first(const Keys& keys, std::string text) const {
@@ -44,7 +44,7 @@ struct SceneDraft {
         const Setting* every = settings.find("time.sync_every");
         return !every || !every->is_wrong;
     }
-    /// Calls what(row, number, place) for the valid rows of a list; numbers begin at 1.
+    /// Calls what(row, number, place) for the valid rows of a list; the first row has number 1.
     template <class What> void for_each_row(std::string_view key, const What& what) const {
         const Setting* setting = settings.find(key);
         if (!setting || !std::holds_alternative<Values>(setting->value.data)) return;
@@ -75,26 +75,26 @@ inline double steps_between_syncs(const SceneParameters& scene) {
     return static_cast<double>(scene.sync_every) / static_cast<double>(scene.micro_steps);
 }
 
-/// Checks the number, sizes, positions and speeds of discs. Returns false if box or radius may be
-/// wrong, or if the number of discs is in a file that has not been read.
+/// Checks the number, sizes, positions and speeds of discs. Returns false if box or radii may be
+/// wrong, or if only a file that has not been read yet gives the number of discs.
 bool check_discs(const SceneDraft& draft);
 
-/// Reports conditions of `[time.stop]` on properties that the scene's discs do not have.
+/// Reports conditions of `[time.stop]` on kT or pressure if these are undefined in the scene.
 void check_stop(const SceneDraft& draft);
 /// Reports features of the scene that a GPU cannot run, if the scene requires one.
 void check_gpu(const SceneDraft& draft);
 
-/// Checks that lines of discs can have the columns of `discs.columns`.
+/// Checks that `discs.columns` names x with y, vx with vy, and velocities unless they are drawn.
 void check_columns(const SceneDraft& draft);
 /// Checks the lengths of the rows of `discs.list`. If rows contain only positions, velocities must
 /// be drawn.
 void check_rows_of_list(const SceneDraft& draft);
 
-/// Checks numbers of steps, rates and times against each other.
+/// Checks numbers of steps, of micro-steps and of samples against each other.
 void check_times(const SceneDraft& draft);
 
-/// Reports a contact time of more than `longest` steps, with the reason `why`, if discs may come to
-/// rest and so need one.
+/// Reports a contact time of more than `longest` steps, if discs may come to rest and so need a
+/// contact time. `why` says in the message what `longest` is.
 void limit_contact_time(const SceneDraft& draft, double longest, std::string_view why);
 
 } // namespace carrom

@@ -3,7 +3,7 @@
 // reads the text of the input afterwards.
 //
 // Velocities and times are in the scene's unit of time, the step. The engine divides velocities by
-// `micro_steps` when it takes the discs.
+// `micro_steps` when it receives the discs.
 #pragma once
 
 #include <algorithm>
@@ -33,11 +33,11 @@ enum class Generator { random, lattice, triangular, compressed, legacy, file };
 enum class VelocityKind {
     maxwell,
     uniform,
-    reversed ///< the listed velocities with the opposite sign
+    reversed ///< the listed velocities and spins with the opposite sign
 };
 
-/// The lines on standard output: none, steps 0 and S, or every step (the course
-/// program's `perf` and `print`).
+/// Which steps print lines of discs on standard output: none, steps 0 and S (the course program's
+/// `perf`), or every step (its `print`).
 enum class TextOutput { none, first_and_last, every_step };
 
 /// A disc of an input, with its velocity per step.
@@ -48,18 +48,18 @@ struct InputDisc {
     friend bool operator==(const InputDisc&, const InputDisc&) = default;
 };
 
-/// Discs with consecutive ids, up to `end` - 1, that start with the same number in a column.
-/// Rates are per step.
+/// Discs with consecutive ids, up to `end` - 1, that start with the same number in a side column
+/// (core/side_columns.hpp). Rates are per step.
 struct NumberRun {
     DiscId end = 0;
     double number = 0;
 
     friend bool operator==(const NumberRun&, const NumberRun&) = default;
 };
-/// The initial numbers of columns, by ids. A column is empty if all its numbers are 0.
+/// The initial numbers of side columns, in the order of ids; empty for a column that is not given.
 using FirstNumbers = BySideColumn<std::vector<NumberRun>>;
 
-/// The columns that a line of `discs_file` may have. Side columns follow from `first_side` on.
+/// The columns that a line of discs may have. Side columns follow from `first_side` on.
 enum class DiscColumn : std::size_t { id, x, y, vx, vy, radius, mass, first_side };
 
 constexpr DiscColumn disc_column_of(SideColumn column) {
@@ -82,20 +82,20 @@ struct Origin {
     friend bool operator==(const Origin& a, const Origin& b) { return a.x == b.x && a.y == b.y; }
 };
 
-/// A rectangle, and a velocity that is added to the discs generated inside it, for example for a
-/// jet or a moving slab.
+/// A rectangle, and a velocity that is added to the drawn velocities of discs in it, for example
+/// for a jet or a moving slab.
 struct Stream {
     double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
     double vx = 0, vy = 0;
 };
 
-/// A rectangle that contains discs of random positions as a whole.
+/// A rectangle in which discs start as a whole, or with their centres in the case of `freeze`.
 struct StartRegion {
     double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
 
     friend bool operator==(const StartRegion&, const StartRegion&) = default;
 };
-/// Discs with consecutive ids, up to `end` - 1, that have the same region or no own region.
+/// Discs with consecutive ids, up to `end` - 1, that start in the same region, if it is set.
 struct RegionRun {
     DiscId end = 0;
     std::optional<StartRegion> region;
@@ -126,22 +126,22 @@ enum class Transfers { independent, collective };
 
 /// `[output.checkpoint]`: when and where the state is stored, besides at the end and on a signal.
 struct CheckpointOutput {
-    std::string folder; ///< in the run's folder; relative to the working folder
+    std::string folder; ///< path in the run's folder, relative to the working folder
     std::optional<std::int64_t> every_steps;
     std::optional<double> every_minutes; ///< wall time in minutes
-    std::int64_t keep = 2;               ///< number kept; older ones are removed
+    std::int64_t keep = 2;               ///< number of checkpoints kept; older ones are removed
     bool at_end = true;
     Transfers transfers = Transfers::independent;
 };
 
 /// `[output.trajectory]`: frames in one file, at regular steps or at steps that grow by a factor.
 struct TrajectoryOutput {
-    std::string file; ///< in the run's folder; relative to the working folder
+    std::string file; ///< path in the run's folder, relative to the working folder
     std::int64_t every_steps = 1;
     std::int64_t frames_per_decade = 0; ///< 0: frames at regular steps
     bool has_position = true, has_velocity = true, has_collisions = false;
-    bool has_image = false;      ///< image counts; default: true in periodic boxes
-    ComputedFieldSet computed{}; ///< none, if the scene lists no fields
+    bool has_image = false;      ///< image counts; by default in periodic boxes without shear
+    ComputedFieldSet computed{}; ///< none if the scene lists no fields
     SideColumnSet columns;       ///< all columns of the discs, if the scene lists no fields
     bool is_single = true;       ///< numbers of 4 bytes instead of 8
 };
@@ -159,7 +159,7 @@ struct MeasurementOutput {
         bool is_given = false; ///< given by the scene; otherwise computed by a check
     };
 
-    std::string folder; ///< in the run's folder; relative to the working folder
+    std::string folder; ///< path in the run's folder, relative to the working folder
     std::int64_t every_steps = 10, from_step = 0;
     /// Names of quantities in the order of the scene
     std::vector<std::string> quantities;
@@ -198,18 +198,18 @@ struct SceneParameters {
     std::vector<std::string> overrides; ///< settings `key=value` that replace those of the text
 
     Box box;                 ///< lengths of the edges; 0 if they are not known
-    Origin origin;           ///< users' (0, 0); computations do not use it
+    Origin origin;           ///< the point that is (0, 0) for users; not used by computations
     double radius = 0;       ///< radius of the largest disc
     bool are_points = false; ///< the scene has the radius 0; `radius` is then point_radius(box)
     std::optional<SizeDistribution> sizes; ///< distribution of radii; species are made from it
     std::uint64_t n_discs = 0;
 
     Generator generator = Generator::random;
-    /// The file for Generator::file, relative to the scene; empty if lines follow the header
+    /// Path of `discs.file`, relative to the scene; empty if the scene has no such file
     std::string discs_file;
-    std::string discs_from; ///< an HDF5 file with the initial discs, relative to the scene
+    std::string discs_from; ///< path of an HDF5 file with the discs, relative to the scene
     std::optional<std::int64_t> discs_from_step; ///< step of the frame; unset: the last frame
-    double speed = 1;                            ///< root mean square of the generated speeds
+    double speed = 1;                            ///< mass-weighted root mean square of drawn speeds
     std::optional<double> temperature;           ///< kT of generated discs, instead of the speed
     VelocityKind velocities = VelocityKind::maxwell;
     /// Velocities of listed discs are drawn, because the scene gives `discs.speed` or
@@ -221,15 +221,15 @@ struct SceneParameters {
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
     std::optional<StartRegion> region; ///< region for discs without a region of their own
-    /// Regions of species or groups, by ids; empty if there are none
+    /// Regions of species or groups, in the order of ids; empty if there are none
     std::vector<RegionRun> regions;
-    bool has_shares = false; ///< whether `discs.species` contains shares
+    bool has_shares = false; ///< whether rows of `discs.species` give shares in place of counts
     /// Groups by species, in the order of ids; they cover all discs, or the list is empty
     std::vector<DiscGroup> groups;
-    /// Discs that are generated in these regions become fixed bodies
+    /// Discs that start with their centres in these regions become fixed bodies
     std::vector<StartRegion> freeze;
-    /// Frozen discs by ids. When they are known, they are fixed bodies of the scene, and its counts
-    /// of discs do not include them
+    /// Frozen discs in the order of ids. When they are known, they are fixed bodies of the scene,
+    /// and its counts of discs do not include them
     std::vector<FrozenDisc> frozen;
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
     std::vector<DiscColumn> disc_columns; ///< `discs.columns`; see columns_of_lines
@@ -251,7 +251,7 @@ struct SceneParameters {
     }
     bool awaits_frozen() const { return freezes() && frozen.empty(); }
     /// The last step that the run is certain to reach: 0 if a condition may end the run before
-    /// `steps`. The times between samples are chosen by this step.
+    /// `steps`. Automatic choices of the time between samples depend on it.
     std::int64_t least_last_step() const { return stop.are_any() ? 0 : steps; }
 
     Effects effects; ///< effects with the step as the unit of time
@@ -278,21 +278,21 @@ struct SceneParameters {
         const double size = effects.size_at(static_cast<double>(steps));
         return packing() * (size * size);
     }
-    /// Whether the discs are lines of text, in `discs_file` or after a legacy header.
+    /// Whether discs are read from lines: of `discs_file`, `discs_from`, or after a legacy header.
     bool reads_disc_lines() const { return generator == Generator::file && listed_discs.empty(); }
 };
 
 /// The radius of equal discs whose packing in the scene is `packing`.
 double radius_of_packing(const SceneParameters& scene, double packing);
 
-/// The radius that stands for points, a billionth of the box. It is larger than any rounding, so a
-/// position is always on one side of a wall.
+/// The radius that stands for points, about a billionth of the box's longer edge. It is larger than
+/// the rounding of any position, so a disc is always on one side of a wall.
 inline double point_radius(const Box& box) { return 0x1p-30 * box.longest(); }
 
 /// Whether discs may start with nonzero numbers in a column.
 bool has_first_numbers(const SceneParameters& scene, SideColumn column);
-/// A disc's initial number in a column. Directions that the scene does not give are drawn from the
-/// seed of the activity, so that any rank can compute them for any disc.
+/// A disc's initial number in a column. A direction that the scene does not give is drawn from the
+/// seed of the activity and the id, so that any rank can compute it for any disc.
 double first_number(const SceneParameters& scene, SideColumn column, DiscId id);
 
 /// The side columns of the scene's discs: those that the dynamics needs, and those with numbers in

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<std::string_view, 6> not_with_sizes = {
     "discs.radius", "discs.species", "discs.groups", "discs.list", "discs.columns", "discs.file"};
 
-/// Why no radii can lie between the limits of a distribution; empty if they can.
+/// Why the limits of a distribution contain no radii, or too few of them; empty if they are valid.
 std::string problem_of_limits(const SizeDistribution& sizes) {
     const auto [smallest, largest] = size_limits(sizes);
     if (!(smallest > 0 && smallest <= largest))

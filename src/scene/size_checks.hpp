@@ -6,11 +6,11 @@
 
 namespace carrom {
 
-/// Reports other keys that define radii in addition to a distribution. The number of discs may be
-/// unknown.
+/// If radii follow a distribution, reports each other key that also defines radii. The number of
+/// discs may still be unknown.
 void check_rivals_of_sizes(const SceneDraft& draft);
 
-/// Whether radii can be computed: keys are valid, one gives the mean, and limits leave some radii.
+/// Whether radii can be computed: keys are valid, mean or packing is given, and limits leave radii.
 bool check_distribution(const SceneDraft& draft);
 
 } // namespace carrom

@@ -12,17 +12,17 @@ namespace carrom {
 namespace {
 
 constexpr double widest_deviations = 3; ///< default limits, in standard deviations from the middle
-/// A range wider than `widest_range` deviations would make its cells too coarse for the density. So
-/// it is cut at `end_of_density`, where the density vanishes.
+/// In a range of more than `widest_range` deviations, cells would be too coarse for the density. So
+/// it is cut `end_of_density` deviations from the middle, where the density is negligible.
 constexpr double widest_range = 64, end_of_density = 12;
-/// Below this polydispersity s, 1 + s^2 loses too many digits of s^2.
+/// Below this polydispersity s, the rounded sum 1 + s^2 loses too many digits of s^2.
 constexpr double narrow = 0x1p-13;
 
-/// e to the power of x.
+/// e to the power of x, with the same bits on every machine.
 double exponential(double x) { return x < 0 ? drag_slowing(1, -x) : 1 / drag_slowing(1, x); }
 
-/// The natural logarithm of `x`, by Newton's method; it ends when the change is only
-/// rounding.
+/// The natural logarithm of `x`, by Newton's method, which ends when the change is as small as
+/// rounding errors. The bits are the same on every machine.
 double logarithm(double x) {
     double y = 0;
     for (int step = 0; step < 200; ++step) {
@@ -60,7 +60,7 @@ Measure measure_of(const SizeDistribution& sizes) {
     return {-variance / 2, std::sqrt(variance), true, false};
 }
 
-/// Distance from the middle to the limits that a scene has by default.
+/// The default distance of the limits from the middle, in standard deviations.
 double reach_of(const SizeDistribution& sizes) {
     return sizes.kind == SizeKind::uniform ? std::sqrt(3.0) : widest_deviations;
 }

@@ -2,10 +2,10 @@
 // Radii that follow a distribution: `discs.radius` as a table.
 //
 // Radii are not drawn. The distribution is cut into parts of equal probability, and each part is a
-// species with the radius in its middle. So two seeds have the same radii and differ only by
-// positions and velocities. With a thousand parts the distribution differs from the exact one by
-// less than a thousandth. Each disc's radius and mass are found by its id, with 2 bytes a disc on
-// every rank (species.hpp).
+// species with the median radius of the part. So two seeds have the same radii and differ only by
+// positions and velocities. With a thousand parts the cumulative distribution differs from the
+// exact one by less than 0.001. Each disc's radius and mass are found by its id, with a table of 2
+// bytes a disc on every rank (species.hpp).
 //
 // Quantiles are computed from a sum of the density, with + - * / and sqrt only, so they have the
 // same bits on every machine. The error functions of libraries differ between machines, and so
@@ -51,8 +51,8 @@ double share_within_limits(const SizeDistribution& sizes);
 /// not vanish.
 constexpr double smallest_share = 1e-12;
 
-/// The radii in the middle of `n` parts of equal probability, ascending, in units of the mean. The
-/// limits must be positive, ascending, and contain `smallest_share`. Cost: some 1e6 operations.
+/// The median radii of `n` parts of equal probability, ascending, in units of the mean. The limits
+/// must be positive, ascending, and contain `smallest_share`. Cost: some 1e6 operations for all.
 std::vector<double> radii_of_parts(const SizeDistribution& sizes, std::size_t n);
 
 /// Species for this number of discs, from the smallest to the largest radius. If `sizes` has no

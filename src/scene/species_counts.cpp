@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the counts of species that are given by shares of the box or of the discs.
+// Computes counts of species for which a scene gives a packing, or a share of discs or of area.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -130,7 +130,7 @@ private:
         return true;
     }
 
-    /// The number of discs to which shares refer. 0 if it is unknown, which is reported.
+    /// The number of all discs, to which shares refer; 0 if it is unknown, which is reported.
     double number_of_all(const std::vector<double>& weights) {
         const bool has_count = draft_.settings.has("discs.count");
         const Setting* packing = draft_.settings.find("discs.packing");

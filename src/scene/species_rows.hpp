@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// The indices of the numbers in a row. A number that the scene leaves out is NaN. Mass and side
-/// columns have defaults instead.
+/// The indices of the numbers in a row of `discs.species`. A number that the scene leaves out is
+/// NaN, except that mass and side columns have defaults.
 namespace species_row {
 inline constexpr std::size_t count = 0, radius = 1, mass = 2;
 constexpr std::size_t of(SideColumn column) { return 3 + static_cast<std::size_t>(column); }
@@ -20,20 +20,20 @@ inline constexpr std::size_t region = 3 + n_given_columns; ///< index of the fir
 inline constexpr std::size_t packing = region + 4, share = packing + 1, share_of_area = share + 1;
 } // namespace species_row
 
-/// The value of a number that a row of species or groups leaves out.
+/// The value of a number that a row leaves out.
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 inline bool is_given(const Numbers& row, std::size_t place) { return !std::isnan(row[place]); }
 
 Key species_key();
 
-/// Whether columns that a list cannot hold are written in `discs.species`.
+/// Whether discs have initial numbers that `discs.list` cannot contain, but `discs.species` can.
 bool are_species_listed(const SceneParameters& scene);
 
 /// Computes the counts of rows that give `packing` or a share instead, and the scene's species.
 /// Reports rows without a count. Call it before all checks of species.
 void fill_species_counts(const SceneDraft& draft);
 
-/// The number of discs of radius r, rounded, that cover `packing` of the area.
+/// The number of discs of this radius that cover the share `packing` of `area`, rounded.
 double count_of_packing(double packing, double area, double radius);
 
 } // namespace carrom

@@ -18,7 +18,7 @@ namespace carrom {
 
 namespace {
 
-/// The number and sizes of the discs that begin in one region.
+/// The number, largest radius and covered area of the discs that begin in one region.
 struct Crowd {
     std::uint64_t count = 0;
     double largest = 0, area = 0;

@@ -15,7 +15,7 @@ std::optional<StartRegion> region_of(const SceneParameters& scene, DiscId id);
 
 bool has_regions(const SceneParameters& scene);
 
-/// Why no disc of that radius fits into the region; empty if one fits.
+/// Why no disc of this radius fits into the region; empty if one fits.
 std::string problem_of_region(const SceneParameters& scene, const StartRegion& region,
                               double largest_radius);
 /// Why this number of discs, which cover `area`, cannot be placed in the region at random; empty
@@ -24,7 +24,7 @@ std::string problem_of_crowd(const StartRegion& region, std::uint64_t count, dou
 
 Key region_key();
 
-/// Checks that regions are in the box, and that their discs can be placed in each at random.
+/// Checks that each region is in the box, and that its discs can be placed in it at random.
 void check_regions(const SceneDraft& draft);
 
 } // namespace carrom

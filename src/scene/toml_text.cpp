@@ -59,7 +59,7 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
     return text.size();
 }
 
-/// The first line whose key has more parts than the parser can handle, or 0.
+/// The first line with a key of more than `most_parts` parts, or 0 if there is none.
 std::int64_t line_of_deep_key(std::string_view text) {
     std::int64_t line = 1;
     int n_parts = 1;

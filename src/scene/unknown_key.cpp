@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// The index of the nearest name, or nothing if no name is near enough to be the intended one.
+/// The index of the name nearest to `name`, or nothing if none is near enough to be meant.
 std::optional<std::size_t> nearest_of(std::string_view name,
                                       std::span<const std::string_view> names) {
     name = name.substr(0, 200);
@@ -44,7 +44,7 @@ std::string_view table_of(std::string_view key) {
 std::string_view last_of(std::string_view key) { return key.substr(key.rfind('.') + 1); }
 
 /// Names of the keys and tables in `table`. If the table is unknown, all names: those with fewer
-/// dots come first, because of equally near names the outer one is meant more often.
+/// dots come first, because among equally near names the outer one is meant more often.
 std::vector<std::string_view> names_in(std::string_view table, bool is_known) {
     std::vector<std::string_view> names;
     for (const Key& one : keys())
@@ -57,7 +57,7 @@ std::vector<std::string_view> names_in(std::string_view table, bool is_known) {
     return names;
 }
 
-/// A text that lists the names in the innermost existing table.
+/// A text that lists the names in `table`, or in the next outer table if `table` does not exist.
 std::string what_there_is(std::string_view table) {
     while (!table.empty() && !find_table(table)) table = table_of(table);
     if (table.empty())
@@ -68,7 +68,7 @@ std::string what_there_is(std::string_view table) {
     return fmt::format("; [{}] has {}", table, list);
 }
 
-/// Keys that users of other programs may write, and the advice for each.
+/// Keys that users may expect but Carrom lacks, and the advice for each.
 constexpr std::pair<std::string_view, std::string_view> keys_tried[] = {
     {"output.checkpoint.folder", folder_text},
     {"output.trajectory.file", folder_text},

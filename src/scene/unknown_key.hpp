@@ -14,17 +14,17 @@ namespace carrom {
 /// nearest name by edit distance, or the existing names.
 std::string unknown_key_text(std::string_view key, const Value& value);
 
-/// The advice for a key that other programs have and Carrom lacks; otherwise empty.
+/// The advice for a key that users may expect but Carrom lacks; empty for other keys.
 std::string instead_of(std::string_view key);
 
 /// The message for a table to which the input gives a single value.
 std::string table_text(std::string_view key, const Value& value);
 
-/// Text such as "; did you mean "all"?" with the nearest name, in `quote`s; empty if every name
-/// differs in more than one letter and in more than a third of the letters.
+/// Text such as "; did you mean 'all'?" with the name nearest to `name`, between `quote`s; empty if
+/// every name differs in more than one letter and in more than a third of the letters.
 std::string guess(std::string_view name, std::span<const std::string_view> names, char quote);
 
-/// The least number of insertions, deletions, replacements and swaps of neighbours from `a` to `b`.
+/// Least number of insertions, deletions, replacements and swaps of adjacent letters from a to b.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 } // namespace carrom

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dense starts by compression (Lubachevsky and Stillinger, J. Stat. Phys. 60, 561 (1990)).
+// Dense initial states by compression (Lubachevsky and Stillinger, J. Stat. Phys. 60, 561 (1990)).
 //
 // A random gas of small discs runs under the event-driven method while radii grow, in stretches.
-// After each stretch speeds are scaled back. The heating in a stretch shows how much room is left,
-// which determines how far radii grow in the next stretch. All sums are exact, so the discs have
-// the same bits on any ranks and threads.
+// After each stretch the root mean square speed is scaled back to 1. How much it rose in a stretch
+// shows how much room is left, which determines how far radii grow in the next one. All sums are
+// exact, so the bits do not depend on the numbers of ranks and threads.
 #pragma once
 
 #include <vector>

@@ -13,9 +13,9 @@
 
 namespace carrom {
 
-/// The sums from which averages follow, without the integrals of stress and energy. **Collective.**
+/// Sums over all discs for averages, without the integrals of stress and energy. **Collective.**
 MotionSample motion_sample(const DiscSystem& system);
-/// Adds the integrals of stress and energy; `mine` are the sums of this rank over the interval.
+/// Adds the integrals of stress and energy over an interval; `mine` are this rank's sums over it.
 /// **Collective.**
 void integrate(const DiscSystem& system, const StressSums& mine, MotionSample& sample);
 /// Adds to `sample` only the flights since the last sync, which DiscSystem::stress_sums lacks.

@@ -39,7 +39,7 @@ std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
     return parts;
 }
 
-/// Frees inputs while making states, because both together would be the peak of the run's memory.
+/// Makes the state at step 0, and frees inputs meanwhile: both together would be the most memory.
 StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     const double rate_unit = scene.velocities == VelocityKind::reversed ? -k : k;
@@ -77,7 +77,7 @@ std::unique_ptr<Engine> engine_for(const SceneParameters& scene, StoredState sta
     return make_time_stepped_engine(scene, std::move(state), communicator, tuning);
 }
 
-/// A typical speed of discs per micro-step during the whole run; the same on all ranks.
+/// Estimates the largest speed usual in the run, per micro-step; the same on all ranks.
 double usual_speed(const SceneParameters& scene, std::span<const DiscState> own,
                    const Communicator& ranks) {
     const Effects& effects = scene.effects;
@@ -142,8 +142,8 @@ DiscSystem::DiscSystem(const SceneParameters& scene, StoredState state,
       engine_(engine_for(scene, std::move(state), communicator, tuning)),
       averaged_system_(
           std::make_unique<AveragedSystem>(system_to_average(scene, engine_->n_discs()))) {
-    // Typical terms are 2^45 units, and sums may reach 2^80 typical terms. The largest terms are
-    // those of whole flights. Rare larger terms are added in a slower way.
+    // Typical terms are 2^45 units of a sum, and sums may reach 2^80 typical terms. The largest
+    // terms come from whole flights. Rare larger terms are added in a slower way.
     const double speed = usual_speed(scene, engine_->own(), communicator),
                  flight = speed * static_cast<double>(longest_flight);
     begin_stress_sums(heaviest_ * std::max(scene.radius, flight) * speed * 0x1p80);
@@ -155,12 +155,12 @@ DiscSystem::~DiscSystem() = default;
 void DiscSystem::advance_towards(std::int64_t last_step) {
     if (check_ && step() < last_step)
         advance_checked();
-    else // advances to the first step that ends after a sync
+    else // advances to `last_step`, or to an earlier step that ends after a sync
         engine_->advance_towards(last_step);
 }
 
 void DiscSystem::begin_stress_sums(double bound) {
-    if (stress_ && bound == stress_bound_) return; // the run may continue from a checkpoint
+    if (stress_ && bound == stress_bound_) return; // the sums have this unit already
     stress_bound_ = bound;
     stress_ = std::make_unique<StressSums>(bound);
     engine_->add_stress_to(stress_.get());

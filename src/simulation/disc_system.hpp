@@ -37,18 +37,18 @@ public:
                const Tuning& tuning);
     ~DiscSystem();
 
-    /// Runs at least one step, up to `last_step` or to an earlier step at which reading the state
-    /// is fast. Steps are those of the scene. **Collective.**
+    /// Runs at least one step of the scene, up to `last_step` or to an earlier step that ends after
+    /// a sync, where reading the state is fast. **Collective.**
     void advance_towards(std::int64_t last_step);
 
     std::int64_t step() const;
     std::int64_t micro_steps_done() const;
 
-    /// Own discs in no particular order: velocities per micro-step, times on `clock()`. They
-    /// include the discs that have left the box (DiscState::has_departed). Valid until the next
-    /// call.
+    /// Own discs in no particular order: velocities per micro-step, their own times on the scale of
+    /// `clock()`. They include the discs that have left the box (DiscState::has_departed). Valid
+    /// until the next call of a member function.
     std::span<const DiscState> discs() const;
-    /// The side columns (core/side_columns.hpp) in the order of `discs()`, until the next call.
+    /// The side columns (core/side_columns.hpp) of `discs()`, in its order and valid as long as it.
     SideSpans side_columns() const;
     /// The spins, in radians per micro-step; empty if discs are not rough.
     std::span<const double> spins() const { return side_columns()[SideColumn::spin]; }
@@ -57,13 +57,13 @@ public:
     /// The species table, or null if all discs are equal.
     const SpeciesTable* species_if_mixed() const;
     double heaviest() const { return heaviest_; } ///< the largest mass of a disc
-    /// The present time for DiscState::x_at: micro-steps since the last sync, or a frame's clock.
+    /// The time for DiscState::x_at: micro-steps since the last sync, or a moving frame's clock.
     double clock() const;
-    /// The frame (core/frame.hpp) of the coordinates of `discs()` at `clock()`. It is the frame
-    /// of the box unless discs fall.
+    /// The frame (core/frame.hpp) of the coordinates of `discs()` at `clock()`. It differs
+    /// from the box's frame if discs fall or the box is periodic.
     Frame frame() const;
-    /// The own discs at `clock()` in the coordinates of the box. This is `discs()` itself unless
-    /// discs fall; otherwise it is valid until the next call.
+    /// The own discs at `clock()` in the coordinates of the box. This is `discs()` itself if
+    /// `frame()` is the box's frame, and otherwise a copy that is valid until the next call.
     std::span<const DiscState> shown() const;
     /// Like `shown()`, but only velocities are valid. The mean flow between sheared sides is
     /// subtracted, because it is not part of the temperature.
@@ -76,21 +76,21 @@ public:
     const Effects& effects() const { return effects_; } ///< times in steps
     const Communicator& ranks() const { return communicator_; }
     int n_threads() const { return n_threads_; }
-    /// The engine, for code that follows collisions or measures. Only `advance_towards` may
-    /// advance it, and only `log_to` may set its log.
+    /// The engine, for code that follows collisions or makes measurements. Only `advance_towards`
+    /// may advance it, and only `log_to` may set its log.
     Engine& engine() { return *engine_; }
     const Engine& engine() const { return *engine_; }
 
-    /// From now on every collision is appended to the `log` of one rank, in no particular order.
-    /// A null pointer ends the logging.
+    /// From now on every collision is appended to `log` on one of the ranks, in no particular
+    /// order. A null pointer ends the logging.
     void log_to(std::vector<Collision>* log);
 
-    /// This rank's sums of stress since the simulation was made, in the unit of `stress_bound()`.
-    /// They contain all collisions, and flights up to the last sync.
+    /// This rank's sums of stress since construction or `begin_stress_sums`; the unit is set by
+    /// `stress_bound()`. They contain all collisions, and flights up to the last sync.
     const StressSums& stress_sums() const;
     double stress_bound() const { return stress_bound_; }
     const AveragedSystem& averaged_system() const { return *averaged_system_; }
-    /// Restarts the sums of stress in the unit that a checkpoint's measurements have. Call it
+    /// Restarts the sums of stress with the bound, and so the unit, of a checkpoint's sums. Call it
     /// before any step.
     void begin_stress_sums(double bound);
 
@@ -102,7 +102,7 @@ public:
 
     /// **Collective.**
     Totals totals() const;
-    /// Fills only the number of discs, energies and momentum. Takes a few passes. **Collective.**
+    /// Only the number, energies and momentum of discs, by a few passes over them. **Collective.**
     Totals energies() const;
 
 private:
@@ -122,7 +122,7 @@ private:
     std::unique_ptr<const AveragedSystem> averaged_system_;
     std::unique_ptr<StressSums> stress_; ///< sums to which the engine adds
     std::unique_ptr<StateCheck> check_;
-    mutable DiscStates shown_;              ///< the result of `shown()` if discs fall
+    mutable DiscStates shown_;              ///< the result of `shown()` if it is not `discs()`
     mutable DiscStates stored_;             ///< the result of `discs()` if discs have left the box
     mutable SideColumns stored_columns_;    ///< side columns of `stored_`
     std::vector<Collision>* log_ = nullptr; ///< the user's log; the check has a log of its own

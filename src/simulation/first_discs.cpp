@@ -39,7 +39,7 @@ SceneParameters scene_of_group(const SceneParameters& scene, const DiscGroup& gr
     return alone;
 }
 
-/// The positions of a group whose generator is not random, with its ids. **Collective.**
+/// The ids and positions of the discs of a group whose generator is not random. **Collective.**
 std::vector<InputDisc> places_of(const SceneParameters& scene, const DiscGroup& group, DiscId first,
                                  std::uint64_t number, const Communicator& communicator,
                                  const Tuning& tuning) {

@@ -17,12 +17,12 @@
 namespace carrom {
 
 /// Returns the scene's discs, in any distribution over the ranks, with velocities. `following` is
-/// as in load_places. The scene must not freeze discs. Throws InputError on every rank.
-/// **Collective.**
+/// as in load_places. The scene must not freeze discs. Throws InputError on every rank if discs
+/// cannot be read or placed. **Collective.**
 std::vector<InputDisc> first_discs(const SceneParameters& scene, std::istream* following,
                                    const Communicator& communicator, const Tuning& tuning);
 
-/// Like first_discs. Discs that the scene freezes become its fixed bodies (frozen_discs.hpp).
+/// Like first_discs, but the scene may freeze discs: they become fixed bodies (frozen_discs.hpp).
 /// **Collective.**
 std::vector<InputDisc> first_discs_and_frozen(SceneParameters& scene, std::istream* following,
                                               const Communicator& communicator,

@@ -22,7 +22,7 @@ const char* name_of(Method method) {
     return method == Method::time_stepped ? "time-stepped" : "event-driven";
 }
 
-/// The state hashes after the run in `hash_of`. Only a change of a method may change them.
+/// The expected result of `hash_of`. Only a change of the method itself may change it.
 const char* known_hash(Method method) {
     return method == Method::time_stepped ? "db7554744bbfab28cfc985786c4ad0dc"
                                           : "27f1b7fd3822c8519554c9040e1df5c3";
@@ -51,8 +51,8 @@ std::string hash_of(Method method) {
     return to_string(system.totals().hash);
 }
 
-/// Reports no difference if a stop is requested during the test; the run then stops on all ranks
-/// together.
+/// Describes the first wrong hash on this rank; empty if there is none, or if a stop is requested
+/// during the test, because the run then stops on all ranks together.
 std::string difference_here() try {
     for (const Method method : {Method::time_stepped, Method::event_driven}) {
         const std::string hash = hash_of(method);

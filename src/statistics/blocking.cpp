@@ -14,8 +14,8 @@ namespace {
 constexpr double rounding_share = 1e-10;
 /// Halves of a run are compared if each has at least this many blocks.
 constexpr std::size_t fewest_blocks_of_half = 8;
-/// Deviation of the halves, in errors, beyond which a run counts as changing. In steady runs with
-/// independent blocks it is exceeded in one run of 2000.
+/// Difference of the halves' means, divided by its error, beyond which a run counts as changing. In
+/// steady runs with independent blocks it is exceeded in one run of 2000.
 constexpr double most_deviations = 4;
 /// A run with fewer independent blocks counts as changing, because its blocks follow a trend.
 constexpr double fewest_independent = 3;

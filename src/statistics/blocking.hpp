@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Errors of averages over time for correlated samples.
 //
-// Samples are joined to blocks of equal length. When there are `most_blocks`, neighbouring blocks
+// Samples are joined into blocks of equal length. When there are `most_blocks`, neighbouring blocks
 // are joined in pairs, so that memory does not grow with time. The error comes from blocks so long
 // that their means are independent (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)).
 // Jonsson's test (Phys. Rev. E 98, 043304 (2018)) finds that length automatically. The remaining
@@ -26,9 +26,9 @@ constexpr std::size_t most_blocks = 128;
 
 /// Results for the mean of all blocks, from the means of consecutive blocks.
 struct BlockedMean {
-    double error = std::numeric_limits<double>::quiet_NaN(); ///< one standard error, or NaN
-                                                             ///< if there are too few blocks
-    /// The distance, in blocks (at least 1), at which blocks are independent of each other.
+    double error = std::numeric_limits<double>::quiet_NaN(); ///< one standard error; NaN if
+                                                             ///< blocks are few or not finite
+    /// The number of successive blocks, at least 1, that are worth one independent block.
     double blocks_per_independent = std::numeric_limits<double>::quiet_NaN();
     bool is_constant = false; ///< blocks agree to within rounding: a conserved quantity
     bool is_changing = false; ///< the run's halves differ by more than chance explains, or the
@@ -60,7 +60,7 @@ public:
     std::int64_t n_samples() const;
     std::size_t n_blocks() const { return n_values_ == 0 ? 0 : blocks_.size() / n_values_; }
 
-    /// Adds one sample of `n_values()` numbers. Samples must have equal intervals.
+    /// Adds one sample of `n_values()` numbers. Samples must be equally far apart in time.
     void add(std::span<const double> sample);
 
     /// One mean for each value.

@@ -42,8 +42,8 @@ public:
         if (view_.periods.y != 0) box_.y_low = -infinity, box_.y_high = infinity;
     }
 
-    /// Computes the order of one disc. Returns whether its cell is complete, which means that no
-    /// disc beyond the reach could cut it.
+    /// Computes psi6 of one disc. Returns whether its cell is complete, which means that no disc
+    /// beyond the reach could cut it; also true if it has no cell.
     bool find(LocalIndex index, BondOrder& order) {
         const DiscState& disc = view_.population.discs[index];
         const double x = x_in_box(disc), y = y_in_box(disc);

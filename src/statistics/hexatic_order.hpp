@@ -32,7 +32,7 @@ struct BondOrder {
 /// The radii of discs of several species, which determine the cells.
 struct CellSizes {
     const SpeciesTable* species = nullptr; ///< null if all discs have one size
-    double largest_radius = 0;             ///< radius at the start, as in the table
+    double largest_radius = 0;             ///< at the scene's start, as in `species`
     double size = 1;                       ///< the factor by which radii have grown
 
     double squared_radius_of(DiscId id) const {
@@ -63,12 +63,12 @@ struct HexaticSums {
 
     ExactSum real, imaginary, modulus;
     std::vector<std::uint64_t> neighbours; ///< number of discs by count of neighbours
-    std::vector<std::uint64_t> moduli;     ///< number of discs, in bins from 0 to 1
+    std::vector<std::uint64_t> moduli;     ///< number of discs by |psi6|, in bins from 0 to 1
     std::vector<std::uint64_t> pairs;      ///< number of pairs, in bins of distance
-    std::vector<ExactSum> products;        ///< sum of the real part of psi6* psi6 over these pairs
+    std::vector<ExactSum> products;        ///< sums over these pairs of Re(psi6_i* psi6_j)
 };
 
-/// Adds discs without pairs.
+/// Adds psi6 of these discs to the sums over discs, and no pairs.
 void add_discs(std::span<const BondOrder> orders, HexaticSums& sums);
 /// Adds this rank's discs and pairs; bins of distance are `bin_width` wide. A pair is counted once,
 /// by the rank that owns the disc with the lower id.

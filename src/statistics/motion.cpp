@@ -96,7 +96,7 @@ MotionSample sample_motion(std::span<const DiscState> own, const SpeciesTable* s
 
 namespace {
 
-/// The sum of m (v + a)_a (v + a)_b, given the sum of m v_a v_b, the momenta and the mass.
+/// The sum of m (v + a)(v + a), given the sum of m v v, the momenta, the mass and a = (ax, ay).
 Tensor shifted(const Tensor& squares, double px, double py, double mass, double ax, double ay) {
     return {squares.xx + 2 * px * ax + mass * ax * ax,
             squares.xy + px * ay + py * ax + mass * ax * ay,

@@ -3,7 +3,7 @@
 // two such times. Temperature and pressure follow from them (docs/understanding/pressure.md).
 //
 // All sums have the same bits for any number of ranks and threads. A sample takes two passes over
-// the discs, which is about five nanoseconds a disc.
+// the discs, in all about five nanoseconds a disc.
 #pragma once
 
 #include <cstdint>
@@ -42,15 +42,15 @@ struct MotionSample {
     double mean_speed = 0, mean_square = 0, mean_fourth = 0;
     double n_discs = 0;                              ///< number of discs in the box
     double mass = 0, momentum_x = 0, momentum_y = 0; ///< sums over all discs in the box
-    Tensor motion;                                   ///< sum of m v v
+    Tensor motion;                                   ///< sum of m v v over all discs in the box
     /// Time integral of stress times area since the sums began, in mass length^2 per micro-step
     Tensor stress;
     double energy = 0; ///< the integral of the trace of `motion`, in the same unit
     double area = 0;   ///< area of the box
 };
 
-/// Samples everything except stress, energy and area. Each term is rounded to 2^-62 of N times the
-/// largest speed, so that the bits do not depend on ranks and threads. Without a table all masses
+/// Samples everything except stress, energy and area. Each term is rounded to about N 2^-62 of its
+/// largest value, so that the bits do not depend on ranks and threads. Without a table all masses
 /// are 1. **Collective.**
 MotionSample sample_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
                            double heaviest, std::uint64_t n_discs, int n_threads,
@@ -69,7 +69,7 @@ struct AveragedSystem {
     std::int64_t micro_steps = 1, sync_every = 1;
     bool is_plain = true; ///< discs and walls are elastic; otherwise pressures from counts are NaN
     bool keeps_discs = true; ///< no disc can leave; otherwise collisions per disc are NaN
-    /// The treatment of the common velocity along each axis
+    /// How temperature and pressure treat the mean velocity of all discs along each axis
     Drift drift_x = Drift::is_heat, drift_y = Drift::is_heat;
     bool has_flow = false; ///< the kinetic part is relative to a flow, and computed from samples
     /// Whether the kinetic energy is conserved; if not, samples are closer in time
@@ -80,7 +80,7 @@ struct AveragedSystem {
 /// Integrals over the steps between two samples.
 struct MotionIntegrals {
     double steps = 0, area = 0, n_discs = 0;
-    /// The sum of m v v, without the drift along axes where it is not part of the temperature.
+    /// Sum of m v v, without the drift along axes where the drift is not part of the temperature.
     /// There it is scaled by N / (N - 1) for the lost degree of freedom, so its mean is N kT
     /// along each axis. For a single disc it is NaN there.
     Tensor kinetic;

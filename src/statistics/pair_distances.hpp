@@ -27,8 +27,8 @@ void count_pair_distances(const LocalView& local_view, double bin_width,
                           std::span<std::uint64_t> counts);
 
 /// The share of "ideal pairs", which are pairs of independent points, in a box of a by b that are
-/// at most `distance` apart; it must not exceed the shorter side. (From the distribution of each
-/// component's difference, as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
+/// at most `distance` apart, up to the shorter side. (From the distribution of each component's
+/// difference, as in Ghosh, Bull. Calcutta Math. Soc. 43, 17 (1951).)
 double share_of_ideal_pairs(double a, double b, double distance);
 /// The share of ideal pairs in a box with periodic sides and walls along the side b, for nearest
 /// images, up to half a period.

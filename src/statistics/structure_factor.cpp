@@ -35,8 +35,8 @@ struct Mode {
     double real = 0, imaginary = 0;
 };
 
-/// Terms are rounded to one unit by adding a large number and subtracting it. Sums of such terms
-/// are exact and do not depend on the order.
+/// Terms are rounded to whole units of DensityModes by adding a large number and subtracting it.
+/// Sums of these terms are exact and do not depend on the order.
 Mode mode_of(const Phases& x, const Phases& y, const WaveVector& vector, std::size_t n_discs,
              double rounder) {
     const auto n = static_cast<std::size_t>(vector.n),

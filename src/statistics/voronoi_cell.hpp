@@ -19,8 +19,8 @@ public:
     /// number. `larger` is the squared radius of the origin minus that of the point, because
     /// distances are the lengths of tangents to discs of these radii.
     void cut(double dx, double dy, int point, double larger = 0);
-    /// The squared distance of the farthest corner. Points at more than twice the distance of this
-    /// corner do not cut the cell.
+    /// The squared distance of the farthest corner. If all sizes are equal, points at more than
+    /// twice the distance of this corner do not cut the cell.
     double squared_radius() const;
 
     /// Calls `visit(point, squared_length)` for each side, in their order around the cell.

@@ -41,7 +41,7 @@ std::size_t frame_of(const std::string& path, const FileSummary& summary,
     return static_cast<std::size_t>(found - summary.steps.begin());
 }
 
-/// The number of discs of each species without the departed ones.
+/// The number of discs of each species that have not departed.
 std::vector<std::uint64_t> count_species(const std::vector<Species>& species,
                                          const std::vector<std::uint64_t>& departed) {
     std::vector<std::uint64_t> counts;
@@ -66,7 +66,7 @@ std::uint64_t row_of(std::uint64_t id, const std::vector<std::uint64_t>& departe
     return row;
 }
 
-/// Makes the lines of a block of discs when they are read.
+/// Makes lines of discs while they are read, one block of discs after the other.
 class LinesOfDiscs : public std::streambuf {
 public:
     LinesOfDiscs(FrameFile file, std::size_t frame, std::vector<std::size_t> places,
@@ -128,8 +128,8 @@ private:
     std::uint64_t departed(std::ptrdiff_t k) const {
         return share_.departed[static_cast<std::size_t>(k)];
     }
-    /// Reads rows. An error means that the file was damaged after its check. Other ranks do not
-    /// have this error, so it must not be thrown as an error of all ranks.
+    /// Reads rows. An error means that the file was damaged after its check. Only this rank has the
+    /// error, so it must not be an InputError, which all ranks would have to throw.
     void read(std::uint64_t begin, std::uint64_t end) {
         try {
             file_.read(frame_, begin, end, rows_);
@@ -145,11 +145,11 @@ private:
     FrameFile file_;
     std::size_t frame_;
     std::vector<std::size_t> places_; ///< indices of the columns in the file
-    double moved_x_, moved_y_;        ///< shift from the file's corner to the scene's corner
+    double moved_x_, moved_y_;        ///< the scene's origin minus the file's origin
     ShareOfDiscs share_;
     std::uint64_t first_row_, row_ = 0;     ///< rows of the file
     std::uint64_t next_ = 0, n_before_ = 0; ///< new id of the next disc; bytes of earlier blocks
-    std::ptrdiff_t next_left_ = 0;          ///< index of the next one in `share_.departed`
+    std::ptrdiff_t next_left_ = 0;          ///< index of the next departed disc in `departed`
     std::string lines_;
     Rows rows_;
 };

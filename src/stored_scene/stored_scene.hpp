@@ -13,7 +13,7 @@
 
 namespace carrom {
 
-/// The header of a checkpoint of the present step. Not collective.
+/// The header of a checkpoint that is written at the system's present step. Not collective.
 CheckpointHeader header_now(const SceneParameters& scene, const DiscSystem& system);
 
 /// The scene stored in a file, with more settings (`key=value`) on top. Throws InputError.
@@ -28,9 +28,9 @@ void refuse_other_run(const CheckpointHeader& header, const SceneParameters& sce
 /// The first difference between a recorded run and the scene's run; empty if there is none.
 std::string first_difference(const CheckpointHeader& there, const SceneParameters& scene);
 
-/// The description of box and discs in files of the scene's run.
+/// The description of the box and the discs that files of the scene's run contain.
 RecordedSystem system_of(const SceneParameters& scene);
-/// The contents of a trajectory of the scene's run.
+/// What the trajectory file of the scene's run contains, with the fields that `wanted` lists.
 TrajectoryLayout layout_of(const SceneParameters& scene, const TrajectoryOutput& wanted);
 
 } // namespace carrom

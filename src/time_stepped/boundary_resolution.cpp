@@ -18,7 +18,7 @@ struct BoundaryResolution::Conflict {
     std::uint64_t second; ///< 0 for a wall, so that a wall comes first; else 1 + the id of Q
     std::int32_t rank;
     std::uint32_t number;
-    std::uint32_t n_copies; ///< number of ranks that hold the candidate if no rank has rejected it
+    std::uint32_t n_copies; ///< number of ranks that have the candidate if no rank has rejected it
 
     auto key() const { return std::tuple(time, p, second); }
 };
@@ -108,8 +108,8 @@ void BoundaryResolution::find_first(const Population& population, const Candidat
     }
 }
 
-/// Keeps and rejects the candidates that this rank can decide, after more discs have been taken and
-/// the `is_struck` candidates have been rejected.
+/// Keeps and rejects the candidates that this rank can decide alone. Those marked in `is_struck`
+/// have been decided before, and the discs of the kept ones among them are in `taken_`.
 void BoundaryResolution::walk_own(const Population& population,
                                   const std::vector<std::uint8_t>& is_struck, Candidates& undecided,
                                   Candidates& kept) {
@@ -177,7 +177,7 @@ void BoundaryResolution::sort(const Population& population, Candidates& undecide
     undecided.clear();
 }
 
-/// Returns all copies of a sorted slice's candidates that happen; adds their discs to `taken`.
+/// Returns all copies of the candidates of a sorted slice that happen; adds their discs to `taken`.
 std::vector<BoundaryResolution::Conflict> BoundaryResolution::walk(
     const std::vector<Conflict>& slice, std::vector<DiscId>& taken) const {
     std::unordered_set<DiscId> is_taken(taken.begin(), taken.end());

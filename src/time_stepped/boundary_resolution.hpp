@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides conflict chains of candidates across strips, which no rank can decide alone
-// (docs/understanding/method.md, section 7).
+// Decides chains of candidates with common discs that extend over several strips, so that no rank
+// can decide them alone (docs/understanding/method.md, section 7).
 //
 // Neighbours exchange messages first. For every candidate with discs of two ranks, each rank
 // reports whether it is the first remaining candidate of its own disc. A candidate that is first
@@ -9,8 +9,8 @@
 //
 // A chain that zigzags between strips takes a round for each crossing. So after a few rounds the
 // remaining candidates are sorted across the ranks into the total order. Ranks then walk their
-// slices in turn, and pass on the ids of taken discs. So a chain may span any number of strips.
-// Cost of the sort: two any-to-any exchanges, and memory for these candidates only.
+// slices in turn, and pass on the ids of discs that collide. So a chain may span any number of
+// strips. Cost of the sort: two any-to-any exchanges, and memory for these candidates only.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +41,8 @@ public:
     void decide(const Population& population, std::span<const int> neighbours,
                 Candidates& undecided, std::uint64_t n_conflicts, Candidates& kept);
 
-    int rounds_before_sort = 6; ///< number of rounds of `decide`; affects only the cost
-    std::uint64_t candidates_per_slice = 8192; ///< affects only the cost
+    int rounds_before_sort = 6; ///< rounds of messages before the sort; affects only the cost
+    std::uint64_t candidates_per_slice = 8192; ///< least size of a slice; affects only the cost
 
 private:
     struct Conflict;
@@ -59,7 +59,7 @@ private:
     Communicator communicator_;
     NeighbourExchange with_neighbours_, next_slice_;
     std::vector<std::uint8_t>
-        is_first_; ///< whether each undecided candidate is the first one of all its discs
+        is_first_; ///< whether each undecided candidate is the first one of its own discs
     DiscSet seen_, taken_;
 };
 

@@ -34,7 +34,7 @@ template <class D> struct Broadcast {
 /// that are already near, and those that approach closely enough and arrive before the
 /// window ends. Let d be the separation and w the relative velocity over the window, b =
 /// d.w, a = w.w, c = d.d - touching^2. All rounding in b^2 - a c, and in c at the window's
-/// end, is less than 18 * 2^-24 a d.d. So c with d.d shortened by 2^-19 loses no contact.
+/// end, is less than 18 * 2^-24 a d.d. So c with d.d reduced by a share of 2^-19 loses no contact.
 template <class D>
 HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::uint32_t slot,
                                           std::uint32_t n_inside, const Broadcast<D>& flight) {
@@ -84,13 +84,13 @@ HWY_INLINE std::size_t write_pairs(D d, const Broadcast<D>& flight, std::uint32_
     return n_pairs;
 }
 
-/// Makes room for `wanted` more items after the first `size`, without clearing the new room.
+/// Makes room for `wanted` items after the first `size`. Memory is initialized only once.
 template <class T> T* room(std::vector<T>& buffer, std::size_t size, std::size_t wanted) {
     if (buffer.size() < size + wanted) buffer.resize(2 * (size + wanted));
     return buffer.data();
 }
 
-/// touching^2 for find_near_passes, whose d x w has an error of at most 5 * 2^-24 |d| |w|.
+/// The touching^2 that find_near_passes needs, because its d x w errs by up to 5 * 2^-24 |d| |w|.
 float passing_squared(const CellGrid& grid, float touching_squared) {
     const float margin = 0x1p-21f * 4 * static_cast<float>(grid.geometry().n_reach + 2);
     const float passing = std::sqrt(touching_squared) + margin;
@@ -135,7 +135,7 @@ HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange
 /// single cell has all discs in it.
 constexpr std::uint32_t discs_in_piece = 256;
 
-/// Does the work of FilterColumn for discs that fly much further than they are wide.
+/// Finds the pairs of own discs for FilterColumn, if discs fly much further than their diameter.
 template <class D>
 HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column,
                                            float touching_squared, std::vector<DiscPair>& pairs) {
@@ -179,7 +179,7 @@ HWY_INLINE std::size_t filter_long_flights(D d, const CellGrid& grid, int column
     return n_pairs;
 }
 
-/// Does the work of FilterColumn for all other discs.
+/// Finds the pairs of own discs for FilterColumn, if the reach is at most 8 contact distances.
 template <class D>
 HWY_INLINE std::size_t filter_short_flights(D d, const CellGrid& grid, int column,
                                             float touching_squared, std::vector<DiscPair>& pairs) {
@@ -261,7 +261,7 @@ std::size_t FilterColumn(const CellGrid& grid, int column, float touching_square
                            : n_pairs;
 }
 
-/// A flight between two times, in cells.
+/// The rest of a flight from the fraction `from` of the window on, in cells.
 struct Path {
     float x_begin, x_end, y_begin, y_end;
 

@@ -20,19 +20,19 @@ std::size_t filter_column(const CellGrid& grid, int column, float touching_squar
                           std::vector<DiscPair>& pairs);
 
 /// Appends to the first `n_pairs` entries of `pairs` the pairs of the disc with each disc that it
-/// might touch between the fraction `from` of the window and its end. Omits pairs of halo discs.
-/// Returns the new number of pairs. Only cells within `half_reach` of that part of the path are
-/// searched, because the other disc's cell is no further than that from where the two touch.
+/// might touch between the fraction `from` of the window and its end. Omits pairs of two halo
+/// discs. Returns the new number of pairs. Only cells within `half_reach` of that part of the path
+/// are searched, because no partner's cell is further from the place of a contact.
 std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach,
                           float touching_squared, std::vector<DiscPair>& pairs,
                           std::size_t n_pairs);
 
-/// Like filter_around for flight k of `lanes`, whose disc may be in the halo; `first` is k.
+/// Like filter_around for flight k of `lanes`. Pairs of two halo discs are included; `first` is k.
 std::size_t filter_along(const CellGrid& grid, const FlightLanes& lanes, std::uint32_t k,
                          float from, float half_reach, float touching_squared,
                          std::vector<DiscPair>& pairs, std::size_t n_pairs);
-/// Like filter_around for the flights `run` of `others`, over the whole window; `second` is an
-/// index in `others`.
+/// Like filter_around, for flight k of `lanes` and the flights `run` of `others`, over the whole
+/// window; `first` is k, and `second` is an index in `others`.
 std::size_t filter_lanes(const FlightLanes& lanes, std::uint32_t k, const FlightLanes& others,
                          SlotRange run, float touching_squared, std::vector<DiscPair>& pairs,
                          std::size_t n_pairs);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A set of discs that is filled and emptied several times a window. Emptying costs nothing and
-// frees no memory, and inserting a disc allocates none.
+// A set of discs that is filled and emptied several times a window. Emptying takes a constant time
+// and frees no memory, so that later insertions rarely allocate any.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,12 @@
 
 namespace carrom {
 
-/// Uses open addressing. A slot is in use if it was filled in the present round.
+/// A hash table with open addressing. A slot is in use if it was filled since the last `clear`.
 class DiscSet {
 public:
     void clear() {
         n_ = 0;
-        // round_ starts again after 2^32 rounds, so old slots would count as used
+        // after 2^32 calls round_ takes old values again, so old slots would count as used
         if (++round_ == 0) {
             slots_.assign(slots_.size(), {});
             round_ = 1;

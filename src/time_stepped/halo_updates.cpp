@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the time-stepped engine treats discs and candidates that two ranks hold.
+// How the time-stepped engine treats discs and candidates that exist on two ranks.
 #include "time_stepped/time_stepped_engine.hpp"
 
 namespace carrom {
@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t least_for_threads = 1000;
 } // namespace
 
-/// Two ranks may hold a candidate. The owner of its first disc counts it.
+/// A candidate may exist on two ranks. Only the owner of its first disc counts it.
 template <class Dynamics>
 std::uint64_t TimeSteppedEngine<Dynamics>::count_ours(std::span<const Candidate> candidates) const {
     if (discs_.has_no_halo()) return candidates.size();
@@ -20,8 +20,8 @@ std::uint64_t TimeSteppedEngine<Dynamics>::count_ours(std::span<const Candidate>
     return n;
 }
 
-/// Exchanges new states with the neighbours. Appends to `hits_` the halo's discs that
-/// this rank has not hit itself, and `wall_index` for all others, which later code skips.
+/// Exchanges new states with the neighbours. Appends to `hits_` the updated halo discs, or
+/// `wall_index`, which later code skips, for discs that have also collided on this rank.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
     if (discs_.has_no_halo()) return;
@@ -33,7 +33,7 @@ void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
     for (std::size_t k = 0; k < updates_.size(); ++k) {
         LocalIndex& index = updates_[k];
         if (states_[index] == window.state_after(m)) {
-            index = wall_index; // this rank has hit the disc itself
+            index = wall_index; // this rank has carried out the disc's collision itself
             continue;
         }
         states_[index] = window.state_after(m);

@@ -11,11 +11,11 @@ namespace carrom {
 namespace {
 
 // Times in nanoseconds, as in engine/window_choice.cpp.
-constexpr double partner = 1.3;          ///< time for each disc in a square with edges of one reach
+constexpr double partner = 1.3;          ///< time for each partner in a square of one reach
 constexpr double large_disc = 200;       ///< time for each large disc in a window
 constexpr double partner_of_large = 0.5; ///< time for each disc in the cells around a large disc
 constexpr double pair_of_large = 0.1;    ///< time for each tested pair of a disc and a large disc
-constexpr double hits = 0.3;             ///< collisions of a disc in a window
+constexpr double hits = 0.3;             ///< estimated collisions of a disc in a window
 constexpr double flight = 0.3; ///< length of a flight in a window, over the mean distance of discs
 
 } // namespace

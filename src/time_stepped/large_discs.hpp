@@ -2,7 +2,7 @@
 // Discs that are much larger than most. If cells were wide enough for these discs, each small disc
 // would be compared with all others within the reach of a large disc. So cells fit most discs, and
 // the few large discs are searched separately. Which discs count as large affects the run time,
-// but no bits.
+// but not the bits.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ private:
     void copy_flight(std::uint32_t place, const CellGrid& grid);
 
     std::vector<LocalIndex> indices_; ///< ascending
-    std::vector<float> lanes_;        ///< x, y, vx, vy by index, with padding for whole vectors
+    std::vector<float> lanes_;        ///< x, y, vx, vy in the same order, padded for whole vectors
     std::size_t length_ = filter_padding;
 };
 

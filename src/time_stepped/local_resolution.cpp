@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-// Values of marks that are not numbers of candidates.
+// Marks that differ from all numbers of candidates. A blocked disc has an undecided candidate.
 constexpr std::uint32_t free_disc = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t taken_disc = free_disc - 1;
 constexpr std::uint32_t blocked_disc = free_disc - 2;
@@ -98,7 +98,7 @@ std::size_t LocalResolution::round_alone(const Population& population, Candidate
         first_[candidate.p] = taken_disc;
         if (!candidate.is_wall()) first_[candidate.q] = taken_disc;
     }
-    // The rivals of the kept candidates are removed, and marks other than `taken_disc` are reset.
+    // Other candidates of discs with a kept one are removed; marks except `taken_disc` are reset.
     const auto is_struck = [&](const Candidate& candidate) {
         const bool p_taken = first_[candidate.p] == taken_disc,
                    q_taken = !candidate.is_wall() && first_[candidate.q] == taken_disc;
@@ -173,7 +173,7 @@ std::size_t LocalResolution::round_together(const Population& population, Candid
             if (!candidate.is_wall() && !q_taken) write(first_[candidate.q], free_disc);
             if (!p_taken && !q_taken) rest.push_back(candidate);
         }
-        // All rivals of the kept candidates are removed, so the marks are not needed any more.
+        // Live candidates have no disc with a kept candidate, so marks are not needed any more.
         for (const Candidate& candidate : kept) {
             write(first_[candidate.p], free_disc);
             if (!candidate.is_wall()) write(first_[candidate.q], free_disc);

@@ -2,11 +2,11 @@
 // Decides which candidates of a micro-step (or of a part of it) happen, as far as this rank can
 // decide alone.
 //
-// The rule is a walk in total order: keep a candidate if neither of its discs is taken yet. A
-// candidate that is first for both of its discs is final. Keeping all of these, rejecting their
-// rivals and repeating this gives the same result (Blelloch, Fineman, Shun 2012). Gases need one to
-// three rounds. A long chain would need half as many rounds as its length, so after a few the rest
-// is sorted and walked. A rank has all candidates of its own discs, not those of halo discs. So a
+// The rule is a walk in total order: keep a candidate if neither disc has a kept one yet. Rounds
+// give the same result: keep all candidates that are first for both discs, reject the other
+// candidates of these discs, and repeat (Blelloch, Fineman, Shun 2012). Gases need one to three
+// rounds. A long chain would need half as many rounds as its length, so after a few rounds the rest
+// is sorted and walked. A rank has all candidates of its own discs, but not of halo discs. So a
 // candidate with a halo disc stays undecided, as do all candidates that depend on it.
 #pragma once
 
@@ -31,14 +31,14 @@ class LocalResolution {
 public:
     explicit LocalResolution(int n_threads) : n_threads_(n_threads) {}
 
-    /// Decides the candidates `live`, and empties this list. No disc is taken at first.
+    /// Decides the candidates in `live`, and empties it. Before the call no disc has a kept one.
     void resolve(const Population& population, Candidates& live, Verdicts& verdicts);
 
     int rounds_before_walk = 12; ///< affects only the cost; with 0 the walk starts immediately
 
 private:
-    // One round: keeps the candidates that are first for both discs, removes their rivals from
-    // `live`, and returns the number kept.
+    // One round: keeps the candidates that are first for both discs, removes all candidates of
+    // these discs from `live`, and returns the number kept.
     std::size_t round_alone(const Population&, Candidates& live, Verdicts&);
     std::size_t round_together(const Population&, Candidates& live, Verdicts&);
     void make_room_for(std::size_t n_discs);

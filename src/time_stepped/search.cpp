@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-/// Number of discs between the prefetch of the flights around a disc and its search
+/// Number of discs between the prefetch of the flights around a disc and the search around it.
 constexpr std::size_t around_ahead = 4;
 /// Number of discs whose partners are listed before their contacts are predicted.
 constexpr std::size_t hits_per_batch = 128;
@@ -35,8 +35,8 @@ void prefetch(std::span<const DiscState> discs, LocalIndex index) {
     __builtin_prefetch(&discs[index]);
 }
 
-/// Calls `ask`, a prefetch, some pairs ahead of `judge`, for the first n pairs. Omits the rest if a
-/// request to stop is overdue.
+/// Calls `judge` for each of the first n pairs, and `ask`, a prefetch, some pairs earlier. Ends
+/// early if a request to stop is overdue.
 template <class Ask, class Judge>
 void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask& ask,
                     const Judge& judge) {
@@ -78,8 +78,8 @@ Candidates SearchLists::take(std::size_t bucket, std::span<const WindowState> st
     return std::exchange(list.candidates, {});
 }
 
-/// Bounds of the rejection in single precision. Pairs are rejected by their distance. Walls are
-/// rejected by the position at the window's end, in cells along the grid's axis (x) and across it.
+/// Bounds that reject contacts in single precision: pairs by their distance, walls by the position
+/// at the window's end. They are in cells, along the grid's axis (x) and across it.
 template <class Dynamics> struct Search<Dynamics>::Bounds {
     float touching_squared, touching_large_squared; ///< the second one for pairs with a large disc
     float x_low, x_high, y_low, y_high;
@@ -201,16 +201,16 @@ void Search<Dynamics>::predict_column(const Population& population, const CellGr
     }
 }
 
-/// Half the width of the stretch along a disc's path, in cells, that contains the cells of all
-/// discs of the usual radius that it touches. When they touch, the centres are the sum of both
-/// radii apart, and the other disc flies at most half a reach minus its radius in a window.
+/// Largest distance, in cells, from a disc's path to the cells of the discs of the usual radius
+/// that it touches. When they touch, the distance of centres is the sum of both radii, and the
+/// other disc flies at most half a reach minus its radius in a window.
 template <class Dynamics>
 float Search<Dynamics>::half_reach(const CellGrid& grid, double reach, double radius) const {
     return grid.cells_of(reach / 2 + radius + dynamics_.slack());
 }
 
-/// Predicts contacts of disc k in the list of discs set apart. Its partners are all discs in cells,
-/// unless it is large, and all later discs set apart, unless both are large.
+/// Predicts contacts of disc k of the list CellGrid::apart. Its partners are all discs in cells,
+/// unless it is large, and all later discs of that list, unless both are large.
 template <class Dynamics>
 void Search<Dynamics>::predict_apart(const Population& population, const CellGrid& grid,
                                      const Window& window, const Bounds& bounds, double reach,

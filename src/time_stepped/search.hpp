@@ -22,10 +22,10 @@
 namespace carrom {
 
 /// The candidates of one micro-step, in sections by the time of prediction. The `seen` of a section
-/// is the number (window.hpp) of the last state at that time.
+/// is the number (WindowState) of the latest state that any disc had at this time.
 struct MicroStepList {
     struct Section {
-        WindowState seen = 0; ///< the last state of any disc at that time
+        WindowState seen = 0; ///< number of the latest state of any disc at the prediction
         std::size_t begin = 0;
     };
     Candidates candidates;
@@ -56,7 +56,7 @@ struct SearchLists {
 
 template <class Dynamics> class Search {
 public:
-    /// Cells are made for discs up to `usual_radius`; larger discs are listed and searched apart.
+    /// Cells are made for discs up to `usual_radius`; larger discs are searched separately.
     Search(const Dynamics& dynamics, int n_threads, double usual_radius);
     double usual_radius() const { return usual_radius_; }
     /// Lists the large discs. Call it after the grid was built for the next window, and before

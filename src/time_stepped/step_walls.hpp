@@ -4,7 +4,7 @@
 //
 // A disc collides at most once in a micro-step. So a disc that would leave the box, or run into a
 // fixed body, after this collision stops there, and bounces in the next micro-step. Walls are
-// at rest in this method; the sides decide what a bounce does (dynamics/boundaries.hpp).
+// at rest in this method. Each side has its own law of bounces (dynamics/boundaries.hpp).
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct MetWalls {
     bool at_x = false, at_y = false;
 };
 
-/// Refers to the dynamics, which must outlive it.
+/// Holds a reference to the dynamics, which must outlive it.
 template <class Dynamics> class StepWalls {
     using Real = typename Dynamics::Real;
     using State = typename Dynamics::Arithmetic::State;
@@ -28,15 +28,15 @@ template <class Dynamics> class StepWalls {
 public:
     CARROM_DEVICE explicit StepWalls(const Dynamics& dynamics) : dynamics_(dynamics) {}
 
-    /// The time of the disc's first bounce in m, or `never`.
+    /// The time of the disc's first bounce in micro-step m, or `never`.
     CARROM_DEVICE double time(const DiscState& disc, double m) const {
         const double at_side = side_time(disc, m);
         if (!has_fixed_bodies()) return at_side;
         return std::min(at_side, fixed_body(disc, m).time - m);
     }
 
-    /// Carries out the bounce at t = time(disc, m). A corner reverses both velocities and counts
-    /// once. `spin` is null where discs do not turn.
+    /// Carries out the bounce at t = time(disc, m). A corner reverses both components of the
+    /// velocity and counts as one collision. `spin` is null if discs do not rotate.
     CARROM_DEVICE void bounce(DiscState& disc, double m, double t, double* spin) const {
         if (has_fixed_bodies() && t != side_time(disc, m))
             return bounce_off_fixed_body(disc, m, t, spin);

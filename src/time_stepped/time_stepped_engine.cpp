@@ -78,7 +78,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::begin_window(int n_l
                         reach_of(usual_needs(), window_.duration(), usual_speed_));
 }
 
-/// Ends a window. If it was the last part of a micro-step, the results become the states.
+/// Ends a window. If it was the last part of a micro-step, `outcomes_` become the states.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::end_window(bool is_cut) {
     speed_allowance_ = is_cut ? allowance_after_cut
                               : std::max(least_allowance, (1 + speed_allowance_) / 2);
@@ -98,7 +98,7 @@ template <class Dynamics> Window TimeSteppedEngine<Dynamics>::redistribute(int n
         this->set_departed_aside();
         survey_images();
         agree_on_speed();
-        if (largest_speed_ > 0 && (n_windows_ == 0 || n_parts_ > 1)) // equal on all ranks
+        if (largest_speed_ > 0 && (n_windows_ == 0 || n_parts_ > 1)) // all ranks agree on this
             spread_ = survey_speeds(discs_.own(), largest_speed_, communicator_, tuning_.threads);
         if (n_windows_ == 0) hits_per_micro_step_ = guess_of_hits(window_needs());
     }
@@ -124,8 +124,8 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::add_to(Totals& total
     Base::add_to(totals);
 }
 
-/// Makes cells for `usual_reach`, and sets the reach of halo discs to `reach`. Discs that are too
-/// fast for the cells will be set apart.
+/// Sorts discs into cells that are made for `usual_reach`, and that cover a halo of depth `reach`.
+/// Discs that are too fast for these cells will be set apart.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::sort(const Window& window, double reach, double usual_reach) {
     const Extent seen = discs_.extent_seen(extent(), reach);
@@ -172,7 +172,7 @@ template <class Dynamics> WindowNeeds TimeSteppedEngine<Dynamics>::window_needs(
             spread_.largest > 0 ? &spread_ : nullptr};
 }
 
-/// The needs of a window as in window_needs, for discs up to the size for which cells are made.
+/// Like window_needs, but for discs up to the radius for which cells are made.
 template <class Dynamics> WindowNeeds TimeSteppedEngine<Dynamics>::usual_needs() const {
     WindowNeeds needs = window_needs();
     needs.radius = search_.usual_radius() + dynamics_.slack();
@@ -221,7 +221,7 @@ template <class Dynamics>
 bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     const PhaseClock::Scope resolving(phases_, Phase::resolve);
     std::uint64_t n_candidates = 0;
-    { // a block, so that the list is freed before others grow
+    { // a scope in which the list is freed before others grow
         Candidates live = search_.collect(window, m, states_);
         n_candidates = count_ours(live);
         if (in_parts_) strike_taken(live);
@@ -327,7 +327,7 @@ template <class Dynamics>
                 *this->work_ += work;
             }
     }
-    if constexpr (Dynamics::has_moving_images) // discs of other ranks are counted there
+    if constexpr (Dynamics::has_moving_images) // halo discs count on their own ranks
         return std::max(c.p < discs_.n_own() ? dynamics_.squared_speed(p) : 0,
                         c.q < discs_.n_own() ? dynamics_.squared_speed(q) : 0);
     return std::max(squared_speed_of(p), squared_speed_of(q));

@@ -77,7 +77,7 @@ private:
         else
             discs_.grid().update_flight(index, disc);
     }
-    /// The disc's spin; null where discs do not turn.
+    /// The disc's angular velocity; null if discs do not rotate.
     double* spin_of(LocalIndex index) {
         return dynamics_.has_spin() ? &discs_.columns()[SideColumn::spin][index] : nullptr;
     }
@@ -91,7 +91,7 @@ private:
     /// The next part of the present micro-step, and the number of parts
     int part_ = 0, n_parts_ = 1;
 
-    double refreshed_speed_ = 0; ///< largest speed at the last sync, and 0 after it was used
+    double refreshed_speed_ = 0; ///< largest speed after the last sync; 0 once it has been used
     /// A time not later than the first change of a state since the last migration
     double unchanged_until_ = 0;
 
@@ -99,8 +99,8 @@ private:
     double speed_allowance_ = 1.02;
     /// Collisions per disc and micro-step in the last sync interval
     double hits_per_micro_step_ = 0;
-    double window_speed_ = 0; ///< the speed that the window's reach allows for
-    double usual_speed_ = 0;  ///< the speed that the window's cells allow for
+    double window_speed_ = 0; ///< largest speed for which the window's reach is enough
+    double usual_speed_ = 0;  ///< largest speed for which the window's cells are made
     SpeedSpread spread_;      ///< speeds at the start, or after the last divided micro-step
     bool speed_exceeded_ = false;
 

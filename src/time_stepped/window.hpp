@@ -21,7 +21,7 @@ inline constexpr int longest_window = 254; ///< longest window in micro-steps
 struct Window {
     int first_micro = 0;
     int n_micro = 1;
-    double part_begin = 0; ///< begin of the part; 0 unless the micro-step is divided
+    double part_begin = 0; ///< beginning of the part; 0 unless the micro-step is divided
     double part_end = 1;   ///< the last part of a micro-step includes its end
 
     CARROM_DEVICE bool is_last_part() const { return part_end == 1; }
@@ -33,8 +33,8 @@ struct Window {
     CARROM_DEVICE double begin() const { return first_micro + part_begin; }
     CARROM_DEVICE double duration() const { return n_micro > 1 ? n_micro : part_end - part_begin; }
     /// Strips and cells are made for the positions at this time. If it is the middle of the window,
-    /// no disc moves further from its position than in half the window. This fails for discs that
-    /// fly on after a collision, so a window of several micro-steps uses its start.
+    /// no disc moves further from this position than it flies in half the window. This fails for
+    /// discs that fly on after a collision, so a window of several micro-steps uses its start.
     CARROM_DEVICE double anchor() const {
         return n_micro > 1 ? first_micro : first_micro + (part_begin + part_end) / 2;
     }

@@ -34,7 +34,7 @@ struct AccuracyOptions {
     RunOptions run;
     StudyOptions study;
     bool of_distances = false;
-    std::string share, arithmetic = "all"; ///< words of the command line
+    std::string share, arithmetic = "all"; ///< the options' values as the user wrote them
 };
 
 constexpr int most = 1000000;

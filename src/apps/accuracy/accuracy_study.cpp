@@ -16,8 +16,8 @@ namespace carrom {
 
 namespace {
 
-/// Both methods, each with K = 1, `factor`, factor^2, ... micro-steps. The first setting is the
-/// reference: the event-driven method with default arithmetic.
+/// Both methods, each with K = 1, `factor`, factor^2, ... micro-steps per step. The first setting
+/// is the reference: the event-driven method with default arithmetic.
 std::vector<RunSetting> settings_of(const StudyOptions& options, std::int64_t factor) {
     std::vector<RunSetting> settings;
     for (std::int64_t k = 1; k <= options.most_micro_steps; k *= factor) {
@@ -49,8 +49,8 @@ struct Study {
     Tuning tuning;
 };
 
-/// Makes independent initial states. Generated discs get another seed; discs from a file are run
-/// for a different number of collisions.
+/// Makes the initial state with this number, independent of the others. Generated discs get another
+/// seed; discs from a file are first run for another number of collisions.
 TrialStart make_start(const Study& study, int number) {
     const double approach = study.options.approach;
     if (study.scene.generator == Generator::file)
@@ -88,7 +88,7 @@ struct Item {
     RunSetting setting;
 };
 
-/// This process's share of the trials, in the order of starts; the settings take turns.
+/// This process's share of the trials, sorted by start, then by repetition, then by setting.
 std::vector<Item> items_of(const StudyOptions& options, const std::vector<RunSetting>& settings,
                            int n_repetitions) {
     std::vector<Item> items;
@@ -140,7 +140,7 @@ std::vector<std::vector<InputDisc>> trace(const Study& study, const RunSetting& 
     return samples;
 }
 
-/// Runs one trial. `exact`: the discs of the exact run at the early step.
+/// Runs one trial. `exact` has the discs of the exact run at `length.early_step`.
 TrialOutcome attempt(const Study& study, const RunSetting& setting, const TrialStart& start,
                      const TrialLength& length, const std::vector<InputDisc>& exact) {
     try {
@@ -164,7 +164,7 @@ void study_costs(const SceneParameters& scene, const std::vector<InputDisc>& dis
     CsvTable table(options.table, costs_header());
     const std::vector<RunSetting> settings = settings_of(options, 2);
     TrialLength length;
-    std::vector<InputDisc> exact; // discs of the exact run at the early step
+    std::vector<InputDisc> exact; // discs of the exact run at `length.early_step`
     const auto begin = [&](const TrialStart& start) {
         length.steps = at_least_one(options.collisions / start.frequency);
         length.early_step = std::min(at_least_one(1 / start.frequency), length.steps);

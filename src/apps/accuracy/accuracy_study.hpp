@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The two studies of `carrom accuracy`. One measures how settings change the collision rate, the
-// pressure and the cost. The other measures how far discs move away from those of the exact run.
-// Both run every setting from the same initial states.
+// pressure and the cost. The other measures how far discs move away from where they are in the
+// exact run, which is event-driven. Both run every setting from equal initial states.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ enum class Formulas {
     usual,
     stable,
     all
-}; ///< stable formula in double; the same in both precisions; stable and naive formula in both
+}; ///< usual: stable formula in double precision; stable: also in single precision; all: naive, too
 
 struct StudyOptions {
     std::string table = "accuracy.csv";
@@ -28,13 +28,13 @@ struct StudyOptions {
     bool quiet = false;
 };
 
-/// Measures costs and errors of K = 1, 2, 4, ... micro-steps in both methods; settings take turns.
-/// Throws InputError. Called on one rank.
+/// Measures costs and errors of K = 1, 2, 4, ... micro-steps per step in both methods. A repetition
+/// runs all settings in turn. Throws InputError. Called on one rank.
 void study_costs(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                  const StudyOptions& options, const Communicator& ranks);
 
-/// Measures how far discs are from those of the exact run, about once per collision of a disc. K is
-/// 1, 16, 256, ... up to `most_micro_steps`. Throws InputError. Called on one rank.
+/// Measures distances of discs from their positions in the exact run, about once per collision of a
+/// disc, with K = 1, 16, 256, ... micro-steps per step. Throws InputError. Called on one rank.
 void study_distances(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                      const StudyOptions& options, const Communicator& ranks);
 

@@ -23,7 +23,7 @@ struct Distance {
 };
 
 /// The results of a trial. If it could not be run to its end, `failure` has the reason and there
-/// are no numbers. `distance` is the distance to the exact run at the early step.
+/// are no numbers. `distance` is the distance to the exact run at TrialLength::early_step.
 struct TrialOutcome {
     Trial trial;
     Distance distance;

@@ -55,7 +55,7 @@ struct CompareOptions {
     bool counts_points = false;
 };
 
-/// The reasons why a scene cannot be compared.
+/// The reasons why lines of this scene cannot be compared with a run.
 std::vector<Problem> reasons_against(const SceneParameters& scene) {
     std::vector<Problem> problems;
     const auto add = [&](const char* text) { problems.push_back({scene.name, 0, text}); };

@@ -28,11 +28,11 @@ namespace {
 
 enum class Format { xyz, text, csv };
 
-/// The names that columns of text get; names in the file may differ.
+/// Columns that every CSV table of discs has; they are empty if the source file lacks them.
 constexpr std::array<std::string_view, 6> common_columns = {
     "x", "y", "vx", "vy", "pair_collisions", "wall_collisions"};
 
-/// The places of columns that only some files have.
+/// The indices of the file's columns that are not in `common_columns`.
 std::vector<std::size_t> other_columns(const FileSummary& summary) {
     std::vector<std::size_t> places;
     for (std::size_t k = 0; k < summary.columns.size(); ++k)

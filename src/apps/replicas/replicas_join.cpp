@@ -101,10 +101,10 @@ double value_in(const Json& report, const AveragedColumn& quantity) {
 
 /// Compares the errors that replicas report with the scatter between replicas.
 struct Claims {
-    double claimed = NAN;       ///< root mean square of the errors; NaN if there are none
+    double claimed = NAN;       ///< root mean square of the reported errors; NaN if there are none
     double ratio = NAN;         ///< scatter divided by `claimed`
     std::size_t n_changing = 0; ///< number of replicas that are still changing
-    std::size_t n_silent = 0;   ///< number of replicas too short for an error
+    std::size_t n_silent = 0;   ///< number of other replicas without an error, mostly too short
 
     bool are_too_small(std::size_t n_replicas) const;
 };

@@ -33,10 +33,10 @@ struct JoinedReplicas {
 /// Reads the replicas' reports and writes to `folder`:
 ///   replicas.csv   a line for each replica: folder, seed, state hash, averages
 ///   replicas.json  each average over the replicas: value and standard error of the mean, and how
-///                  the scatter between replicas compares with the errors that they claim
-//   NAME.csv       each measured table with equal shape in all replicas: means and their errors
-/// Throws CollectiveError, code 4, where a file cannot be written, and InputError where a report
-/// cannot be read. Call it on one rank.
+///                  the scatter between replicas compares with the errors that they report
+///   NAME.csv       each measured table with equal shape in all replicas: means and their errors
+/// Throws CollectiveError (code 4) if a file cannot be written, and InputError if a report cannot
+/// be read. Call it on one rank.
 JoinedReplicas join_replicas(const std::vector<Replica>& replicas, const std::string& folder);
 
 } // namespace carrom

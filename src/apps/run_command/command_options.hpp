@@ -10,7 +10,7 @@
 
 namespace carrom {
 
-/// The options of `carrom run`. They write to `run`, which must live as long as they do.
+/// The options of `carrom run`. Their values are stored in `run`, which must outlive the options.
 std::vector<Option> run_options(RunOptions& run);
 
 /// Adds the settings of keys that have an option of their own, and appends problems of options that

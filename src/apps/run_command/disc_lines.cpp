@@ -24,7 +24,7 @@ std::vector<LocalIndex> order_by_id(std::span<const DiscState> discs) {
     return order;
 }
 
-/// Adding +0 turns -0 into +0, because states with the same hash must give the same text.
+/// The numbers of a line. Adding +0 turns -0 into +0: states with the same hash give the same text.
 DiscLine line_of(const DiscState& disc, double clock, double velocity_unit, const Origin& origin) {
     return {disc.id,
             disc.x_at(clock) - origin.x + 0.0,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of a step as lines of text, in id order: `step id x y vx vy`, with ` p_c w_c` on the
-// last step.
+// The discs of a step as lines of text, in the order of ids: `step id x y vx vy`, and on the last
+// step also the disc's numbers of pair and wall collisions.
 //
 // Each rank sorts its own discs by id and sends them to rank 0 in slabs of consecutive ids. Cost: a
 // sort of indices (4 bytes a disc), sending every disc, and 0.8 us a line on rank 0.
@@ -24,8 +24,8 @@ struct DiscLine {
     std::uint64_t pair_collisions = 0, wall_collisions = 0;
 };
 
-/// Appends one line. `digits` are decimals, except that 17 means 17 significant digits, which a
-/// reader turns into the same bits.
+/// Appends one line. `digits` is the number of decimals, except that 17 means 17 significant
+/// digits, from which a reader gets the same bits.
 void append_line(fmt::memory_buffer& text, std::int64_t step, const DiscLine& line, int digits,
                  bool with_counters);
 

@@ -64,7 +64,7 @@ nlohmann::ordered_json lost_collisions_json(const LostCollisions& lost) {
     return {{"share", lost.share}, {"pressure_error", lost.pressure_error}};
 }
 
-/// Adds the watched numbers and the doubts about averages, if there are any.
+/// Adds the watched numbers (psi6 and energy) and the doubts about averages, if there are any.
 void add_doubts(nlohmann::ordered_json& report, const RunResult& result) {
     if (!result.watched.empty()) report["watched"] = watched_json(result.watched);
     if (const std::string doubts = doubts_of_run(result); !doubts.empty())

@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// Runs a scene with all its outputs. `problems` of the command line are thrown together with those
-/// of the scene. **Collective.**
+/// Runs a scene with all its outputs. `problems` of the command line and problems of the scene are
+/// thrown together. **Collective.**
 ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
                    const Communicator& ranks);
 

@@ -122,11 +122,11 @@ double collisions_per_disc(const SceneParameters& scene, const RunResult& result
 
 namespace {
 
-/// With fewer samples an error is a fifth too small on average (statistics/blocking.hpp).
+/// With this number of samples errors are a fifth too small on average (statistics/blocking.hpp).
 constexpr int fewest_independent_samples = 8;
 
-/// One text with the watched numbers that still change or that fluctuate too slowly for the run's
-/// length, and with the consequence; empty if there are none.
+/// A text that lists the watched numbers which still change or have few independent samples, and
+/// warns that errors of other averages may be too small; empty if there are no such numbers.
 std::string changes_of(std::span<const WatchedNumber> watched) {
     std::vector<std::string> all;
     for (const WatchedNumber& one : watched) {
@@ -251,9 +251,9 @@ double guarded_share(const RunResult& result) {
 }
 
 std::string warning_of_guarded_collisions(const SceneParameters& scene, const RunResult& result) {
-    // Lasting contacts take that energy at the next sync, so no warning is needed.
+    // With lasting contacts the next sync takes the energy that guarded collisions spare.
     if (scene.effects.lasting_speed > 0) return {};
-    constexpr std::uint64_t fewest = 100; // with fewer collisions the share is random
+    constexpr std::uint64_t fewest = 100; // with fewer collisions the share is too uncertain
     const double share = guarded_share(result);
     if (!(share > 0.01) || result.end.guarded_collisions < fewest) return {};
     const bool is_named = scene.effects.contact.contact_time > 0;

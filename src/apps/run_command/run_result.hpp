@@ -24,7 +24,7 @@ namespace carrom {
 /// ranks, as each comment says. The totals do not depend on the numbers of ranks and threads.
 struct RunResult {
     Totals start, end;
-    std::vector<EndNumber> end_numbers; ///< further numbers at the end, from the scene's effects
+    std::vector<EndNumber> end_numbers; ///< numbers of effects at the end, simultaneous collisions
     std::int64_t first_step = 0, last_step = 0;
     std::optional<StopReason> stop_reason; ///< why the run ended before the scene's last step
     int ranks = 1;
@@ -33,14 +33,14 @@ struct RunResult {
     DeviceFacts device;      ///< the GPU; its name is empty if there was none
     double wall_seconds = 0; ///< time of stepping, of the slowest rank; without output
     Averages averages;       ///< averages over the run, including the parts before restarts
-    std::vector<WatchedNumber> watched; ///< order and energy, if they can change
+    std::vector<WatchedNumber> watched; ///< psi6 of dense discs; energy if it can change
     std::vector<MeasuredTable> tables;  ///< the tables that the scene measures
     std::vector<std::string> doubts_of_tables;
     RollbackCounts runs;        ///< rollbacks of the event-driven method
     PhaseSeconds phase_seconds; ///< time of the slowest rank in each phase
     /// For each phase, the largest time of a rank divided by the mean of the ranks
     PhaseSeconds phase_imbalance;
-    double imbalance = 1; ///< largest `busy_seconds` of a rank divided by the mean
+    double imbalance = 1; ///< largest `busy_seconds` of a rank divided by the ranks' mean
     /// Radii at the end divided by the scene's radii: Engine::size
     double size = 1;
     double peak_bytes_per_disc = 0; ///< sum of the ranks' peak memory divided by number of discs
@@ -59,8 +59,8 @@ double ratio(double part, double whole);
 
 double ns_per_disc_step(const RunResult& result);
 
-/// Whether a phase is a rank's own work. This excludes phases of waiting for other ranks (wait,
-/// exchange, conflicts) and those outside of stepping (set-up, output).
+/// Whether a phase is a rank's own work. It is not if the rank waits for other ranks in it (wait,
+/// exchange, conflicts), nor if the phase is outside of stepping (set-up, output).
 bool is_own_work(std::string_view phase);
 /// The time that a rank has spent on its own work.
 double busy_seconds(const PhaseSeconds& phases);
@@ -79,7 +79,7 @@ double rejected_share(const RunResult& result);
 /// independent samples; empty if there are none.
 std::string doubts_of_averages(const Averages& averages,
                                std::span<const WatchedNumber> watched = {});
-/// The doubts about averages and those about measured tables, in one line.
+/// The doubts about averages and about measured tables, in one line.
 std::string doubts_of_run(const RunResult& result);
 
 /// Estimates for a time-stepped run; docs/understanding/pressure.md has the formulas.
@@ -91,9 +91,9 @@ LostCollisions lost_collisions(const SceneParameters& scene, const RunResult& re
 /// A one-line warning if a run misses more than 1 % of the collisions of pairs, else empty.
 std::string warning_of_lost_collisions(const SceneParameters& scene, const RunResult& result);
 
-/// The energy that guarded collisions did not lose, divided by the energy that restitution would
-/// have taken. A collision is guarded if one of its discs has collided within the contact time
-/// before. Counts since this process began.
+/// The energy that guarded collisions would have lost, divided by the energy that restitution would
+/// have taken without the guard (dynamics/contact_guard.hpp). Contacts at rest are not included.
+/// Sums since this process began.
 double guarded_share(const RunResult& result);
 /// A warning if `guarded_share` exceeds 0.01 because of the scene's contact time, else empty.
 std::string warning_of_guarded_collisions(const SceneParameters& scene, const RunResult& result);

@@ -89,7 +89,7 @@ Action refused(const std::string& reason) {
     return failing({{"command line", 0, reason + " (see carrom --help)"}});
 }
 
-/// Declares a switch, which takes no value, because CLI11 would read `NAME=no` as its opposite.
+/// Declares a switch. A value is an error, because CLI11 would read `NAME=no` as switched off.
 void declare_switch(CLI::App& command, const Option& option, bool& is_on) {
     const auto complaint = [](const std::string& word) {
         return word == "true" ? std::string{} : "takes no value; leave \"=" + word + "\" out";
@@ -124,8 +124,8 @@ void declare(CLI::App& app, const Subcommand& subcommand) {
     command->allow_extras();
 }
 
-/// Problems of words that belong to no option. If an option is unknown, other such words may be its
-/// values, so only the unknown option is reported.
+/// Problems of words that belong to no option. If an option is unknown, only this is reported,
+/// because the other words may be its values.
 std::vector<Problem> leftovers(const Subcommand& subcommand, const CLI::App& command) {
     const std::string see = std::string("; see carrom ") + subcommand.name + " --help";
     std::vector<Problem> unknown, others;

@@ -13,12 +13,12 @@ namespace carrom {
 
 /// Opens each closed standard stream as a stream on which reading (0) or writing (1, 2) fails.
 /// Otherwise the next file would get the stream's number, and messages would be written into data.
-/// A pipe without a reader then gives a write error, and does not end the process. Call it before
-/// any file is opened.
+/// Also ignores SIGPIPE: a pipe without a reader gives a write error, but does not end the process.
+/// Call it before any file is opened.
 void keep_standard_streams();
 
-/// Prints to standard error, with control characters escaped except ends of lines. Text that cannot
-/// be written is dropped, because no one could read an error message.
+/// Prints to standard error, with control characters escaped except ends of lines. If this fails,
+/// the text is dropped, because an error message could not be written either.
 void print_text(std::string_view text);
 
 template <class... Values>

@@ -18,7 +18,7 @@ namespace {
 std::atomic<int> signal_that_has_come = 0; // for the message only
 std::atomic<bool> is_answer_due = false;
 
-/// Prints the answer to a signal. Signal handlers call it, so it is async-signal-safe.
+/// Prints a message about a signal. Signal handlers call it, so it is async-signal-safe.
 void answer(int number) {
     constexpr std::string_view text = "\ntold to stop: the steps under way are finished first if "
                                       "that takes no more than a second";

@@ -13,10 +13,10 @@ void record_stop_signals();
 class StopSignals {
 public:
     /// Calls `record_stop_signals`. If `are_reported`, the first signal is
-    /// answered on standard error immediately, because the present step may take
+    /// immediately reported on standard error, because the present step may take
     /// long.
     explicit StopSignals(bool are_reported);
-    ~StopSignals(); ///< from here on signals are recorded without an answer
+    ~StopSignals(); ///< from here on signals are recorded without a message
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 };

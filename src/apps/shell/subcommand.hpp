@@ -46,8 +46,8 @@ struct Subcommand {
     const char* help; ///< one line of help
     const char* footer;
     std::vector<Option> options; ///< options; their targets must live as long as `action`
-    /// Called when all values are known; `problems` are the command line's problems so far. It
-    /// appends further problems, or leaves `problems` to the action, which may find more.
+    /// Returns the action when all values are known. It appends to the command line's `problems`,
+    /// or passes `problems` on to the action, which may find more.
     std::function<Action(std::vector<Problem>& problems)> action;
     const char* word_too_many = "is one word too many";
 };

@@ -25,7 +25,7 @@ Subcommand verify_subcommand();
 Subcommand diff_subcommand();
 Subcommand convert_subcommand();
 
-/// Number of rows that are read at a time.
+/// Largest number of rows of a file that are in memory at once.
 inline constexpr std::uint64_t rows_at_a_time = std::uint64_t{1} << 16;
 
 inline constexpr const char* help_of_file = "A checkpoint, a trajectory or a log of collisions";

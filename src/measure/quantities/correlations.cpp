@@ -5,7 +5,7 @@
 //
 // Lags and origins are chosen by multiple_tau.hpp. Memory: 32 bytes for each disc, point and level,
 // and a level is added whenever the time doubles. Price of a sample: each disc is sent once, and
-// compared with some 1.5 `correlation_points` of its earlier states.
+// compared with some 1.5 times `correlation_points` of its earlier states.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -35,7 +35,7 @@ constexpr std::uint64_t ids_of_run = Pieces::least_rows;
 
 enum Moment : std::uint8_t { squares, fourths, products, waves, overlaps, n_moments };
 
-/// Checks that the wave and the distance suit the size of the discs and the box.
+/// Checks the wavenumber of F_s and the overlap distance against the sizes of discs and box.
 void check_lengths(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const std::string wave = correlation_wavenumber.key_name(),
@@ -97,7 +97,7 @@ struct Comparison {
     /// discs begin at index `begin`. All terms are computed before they are added, because loops
     /// with sums in a fixed order are not vectorised.
     void add_to(double* of, std::size_t begin, std::size_t n) const {
-        // Not initialised, which saves a tenth of the time.
+        // Not initialised, which saves a tenth of a sample's time.
         std::array<double, ids_of_run> square, product, wave, is_near;
         const double *const x = &now.x[begin], *const y = &now.y[begin], *const vx = &now.vx[begin],
                             *const vy = &now.vy[begin], *const x_before = &before.x[begin],
@@ -178,7 +178,7 @@ public:
         levels_.resize(n_levels, Level(scheme_.points()));
         for (Level& level : levels_)
             for (FollowedStates& states : level) keep_states(kept, states);
-        if (kept.is_restored() && kept.is_at_end()) return; // earlier versions stored no more
+        if (kept.is_restored() && kept.is_at_end()) return; // written by earlier versions
         waiting_.keep(kept);
     }
 
@@ -215,7 +215,7 @@ public:
 private:
     using Level = std::vector<FollowedStates>;
     static constexpr std::uint64_t lags_per_run = 32;
-    static constexpr double most_deviations = 4; ///< exceeded by chance in one of some 300 runs
+    static constexpr double most_deviations = 4; ///< standard errors; by chance in 1 of 300 runs
 
     void add_waiting_times(std::vector<MeasuredTable>& all) const {
         const auto add = [&](std::string name, std::size_t kind) {
@@ -226,7 +226,7 @@ private:
             add(fmt::format("correlations_waiting_{}", kind + 1), kind);
     }
 
-    /// The number of values: moments and squared overlap, for each species and for all discs.
+    /// The number of values of a lag: moments and squared overlap, of each species and of all.
     std::size_t n_values() const { return (n_moments + 1) * (ends_.size() + 1); }
 
     void keep_states(KeptNumbers& kept, FollowedStates& states) {
@@ -263,7 +263,7 @@ private:
         }
     }
 
-    /// Adds the sums of all ranks, and adds a sample to each lag. **Collective.**
+    /// Combines the sums of all ranks, and adds a sample to each of `lags`. **Collective.**
     void record_means(const std::vector<std::size_t>& lags, std::vector<double>& sums) {
         // Only the rank that owns a sum has its value; all other ranks have 0
         std::vector<std::uint64_t> words(sums.size());
@@ -344,8 +344,8 @@ private:
     double wavenumber_, overlap_;
     std::vector<DiscId> ends_; ///< the id after the last one of each species
     std::uint64_t n_samples_ = 0;
-    std::vector<Level> levels_;      ///< states of this rank's run of ids, by slot
-    std::vector<VectorBlocks> lags_; ///< means at each origin, the same on all ranks
+    std::vector<Level> levels_;      ///< states of this rank's range of ids, by slot
+    std::vector<VectorBlocks> lags_; ///< blocks of means over discs, the same on all ranks
     WaitingTimes waiting_;           ///< means by waiting time, the same on all ranks
 };
 

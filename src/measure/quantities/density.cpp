@@ -23,7 +23,7 @@ public:
                      per_y = static_cast<double>(n) / (box.y_high - box.y_low);
         std::vector<std::uint64_t> x(n, 0), y(n, 0);
         for (const DiscState& disc : state.inside) {
-            // the upper edge of the box belongs to its last bin
+            // A centre on the upper edge of the box counts in the last bin.
             count(x, std::clamp((disc.x_at(time) - box.x_low) * per_x, 0.0, last));
             count(y, std::clamp((disc.y_at(time) - box.y_low) * per_y, 0.0, last));
         }

@@ -57,7 +57,7 @@ void check_window(const SceneDraft& draft) {
                              key, every, 2 * every, window));
 }
 
-/// Successive windows, each with three numbers at the times 0, every_steps ... correlation_steps.
+/// Successive windows. Each has three means for each time 0, every_steps ... correlation_steps.
 class Windows {
 public:
     Windows(const std::vector<double>& numbers, std::size_t n_times, std::int64_t every_steps)
@@ -77,7 +77,7 @@ public:
     }
 
 private:
-    const std::vector<double>& numbers_; ///< three numbers for each time
+    const std::vector<double>& numbers_; ///< means of dx^2, dy^2 and v(0) v(t) for each time t
     std::size_t n_times_;
     std::int64_t every_steps_;
 };
@@ -108,7 +108,7 @@ MeasuredTable velocity_autocorrelation(const Windows& windows) {
     return table;
 }
 
-/// D for each axis: half the growth rate of the mean square in the second half of each window.
+/// D, also along x and y alone, from mean square displacements in the second half of each window.
 MeasuredTable diffusion(const Windows& windows) {
     const std::size_t last = windows.n_times() - 1, middle = last / 2;
     MeasuredTable table{"diffusion",

@@ -41,7 +41,7 @@ public:
 
 private:
     Flights flights_;
-    std::vector<double> squares_; ///< mean squares of each sample along x, then along y
+    std::vector<double> squares_; ///< mean square displacement at each sample, along x, then y
 };
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // "obstacle_forces": the force and the torque of discs on each obstacle and on the wall of a round
-// box, collision by collision. The column `push` over the wall's length is the pressure there.
+// box, collision by collision. Column `push` divided by the wall's length is its pressure.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    /// The mean per step of number `part` of an obstacle (`row`), in an interval.
+    /// Number `part` of force_words for obstacle `row`, as a mean per step over an interval.
     double rate_of(std::size_t interval, std::size_t row, std::size_t part) const {
         return given_[(interval * rows_.size() + row) * n_force_parts + part] /
                static_cast<double>(run_.output.every_steps);
@@ -138,8 +138,8 @@ private:
     }
 
     void clear() {
-        // Larger than the sums of any run, with a resolution of 2^-63 of an impulse, of an impulse
-        // times the box, or of a squared impulse.
+        // These bounds exceed the sums of any run. The resolution is 2^-62 of a typical impulse, of
+        // this impulse times the box length (torque), or times the typical speed (power).
         const double impulse = speed_scale_ * 0x1p62;
         const std::array<double, n_force_parts> bounds{
             impulse, impulse, impulse * run_.scene.box.longest(), impulse, impulse * speed_scale_};
@@ -161,7 +161,7 @@ private:
 
     std::vector<BodyRow> rows_;
     double speed_scale_ = 0;           ///< typical speed, from which units of sums follow
-    std::vector<ExactSum> since_last_; ///< numbers of each obstacle, on this rank
+    std::vector<ExactSum> since_last_; ///< sums of each obstacle in this interval, on this rank
     std::vector<double> given_;        ///< sums over all ranks, for each interval
 };
 

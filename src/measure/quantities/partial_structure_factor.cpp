@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "partial_structure_factor": S_ab(k) of each two species over the wave vectors of a periodic box.
+// "partial_structure_factor": S_ab(k) of each pair of species, for wave vectors of a periodic box.
 //
 // S_ab is the mean of Re(rho_a rho_b*) / N with rho_a the sum of exp(i k r) over the discs of
-// species a, and N the number of all discs. So S is the sum of S_ab over all a and b, and at large
-// k S_aa is the share of species a while S_ab is 0.
+// species a, and N the number of all discs. So S is the sum of S_ab over all a and b. At large k
+// S_aa is the share of species a, and S_ab of two different species is 0.
 #include <utility>
 
 #include <fmt/format.h>

@@ -120,7 +120,7 @@ public:
         const double time = run_.system.clock(), unit = run_.system.velocity_unit();
         const double per_x = static_cast<double>(n_x_) / (box.x_high - box.x_low),
                      per_y = static_cast<double>(n_y_) / (box.y_high - box.y_low);
-        const auto place = [](double x, std::size_t n) { // edges belong to outer cells
+        const auto place = [](double x, std::size_t n) { // a disc on an edge is in an outer cell
             return static_cast<std::size_t>(std::clamp<std::int64_t>(
                 static_cast<std::int64_t>(x), 0, static_cast<std::int64_t>(n) - 1));
         };
@@ -171,7 +171,7 @@ private:
         return {&head.to_step, &head.steps, &head.x_low, &head.x_high, &head.y_low, &head.y_high};
     }
     std::size_t n_cells() const { return n_x_ * n_y_; }
-    /// Fields of a block: all discs in each cell, each species if separate, and the whole box.
+    /// Number of fields of a block: cells, cells of each separate species, and the whole box.
     std::size_t n_fields() const { return n_cells() * (n_kinds_ > 1 ? n_kinds_ + 1 : 1) + 1; }
 
     std::size_t kind_of(DiscId id) const {
@@ -215,13 +215,13 @@ private:
         return sums_.terms_of(impulse, Pair{event.dx, event.dy}, velocity);
     }
 
-    /// For most collisions the whole line between the centres is in one cell.
+    /// Adds a collision; mostly the whole line between the centres of its discs is in one cell.
     void add(const PairEvent& event, const PlacedGrid& grid) {
         const Pair from = Pair{event.x, event.y} * grid.per_length + grid.origin,
                    length = Pair{event.dx, event.dy} * grid.per_length, to = from + length;
         const PairOfCells cell = cell_at(from);
         const std::size_t to_right = static_cast<std::size_t>(cell[0]) - 1,
-                          upwards = static_cast<std::size_t>(cell[1]) - 1; // huge if row < 0
+                          upwards = static_cast<std::size_t>(cell[1]) - 1; // huge if below row 1
         const ContactTerms terms = terms_of(event);
         if (are_same(cell, cell_at(to)) && to_right < n_x_ && upwards < n_y_ && n_kinds_ == 1)
             [[likely]]
@@ -230,7 +230,7 @@ private:
             add_parts(event, FieldSums::units_of(terms), from, length);
     }
 
-    /// Divides a collision's stress among the cells on its line and among both discs' species.
+    /// Divides a collision's terms among the cells on its line and among both discs' species.
     [[gnu::noinline]] void add_parts(const PairEvent& event, const ContactUnits& whole, Pair from,
                                      Pair length) {
         ContactUnits rest = whole;
@@ -321,7 +321,7 @@ private:
     std::vector<double> blocks_;  ///< count and moments of each field in finished blocks
 };
 
-/// `n` fields of each block, from field `first` on. A single field means the whole box.
+/// `n` fields of each block, from field `first` on. The last field is the whole box.
 MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_t n) const {
     const bool is_grid = n == n_cells() && first + n < n_fields();
     const std::string where = is_grid ? fmt::format("on a grid of {} by {} cells; x, y: their "

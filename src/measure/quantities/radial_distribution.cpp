@@ -101,7 +101,7 @@ public:
     }
 
 private:
-    /// Shares of pairs of independent points by bin; computed again only if the box has changed.
+    /// The share of pairs of independent points in each bin; recomputed only if the box changes.
     const std::vector<double>& ideal_shares(const Extent& box, std::size_t n, double width) {
         const Box size = box.size();
         if (shares_.size() == n && size == box_of_shares_) return shares_;
@@ -136,12 +136,12 @@ private:
         return share(outer) - share(inner);
     }
 
-    /// If there are several kinds of pairs, the curve of all pairs comes first.
+    /// The number of curves: one for each kind of pairs and, if several, one for all pairs.
     static std::size_t n_curves(const SceneParameters& scene) {
         const std::size_t n_kinds = n_pair_kinds(species_apart(scene).size());
         return n_kinds > 1 ? n_kinds + 1 : 1;
     }
-    /// The numbers of each kind, preceded by those of all pairs if there are several kinds.
+    /// The numbers of each kind, preceded by their sums over all kinds if there are several.
     std::vector<double> with_all(const std::vector<double>& of_kinds) const {
         const std::size_t n = n_bins_of(run_);
         if (of_kinds.size() == n) return of_kinds;
@@ -153,7 +153,7 @@ private:
     static std::vector<double> numbers_of(const std::vector<std::uint64_t>& counts) {
         return {counts.begin(), counts.end()};
     }
-    /// Not inlined, because GCC 12 would otherwise warn of a wrong delete.
+    /// Not inlined, because GCC 12 would otherwise warn, wrongly, about a `delete`.
     [[gnu::noinline]] static std::vector<double> ratios(const std::vector<double>& pairs,
                                                         const std::vector<double>& ideal_pairs) {
         std::vector<double> g(pairs.size(), 0);
@@ -165,7 +165,7 @@ private:
     double largest_distance_;
     std::vector<double> shares_;
     Box box_of_shares_;
-    /// For each kind of pair (pair_distances.hpp) its bins, one kind after the other
+    /// Counts of pairs: all bins of one kind of pairs (pair_distances.hpp), then of the next kind
     std::vector<std::uint64_t> pairs_;
     std::vector<double> ideal_pairs_; ///< expected pairs, if discs were independent points
     VectorBlocks blocks_;             ///< samples of g, all curves one after the other

@@ -3,11 +3,11 @@
 //
 // The coefficients follow from the spread of Helfand moments, as the coefficient of diffusion
 // follows from displacements (Viscardi and Gaspard, Phys. Rev. E 68, 041204 (2003)). A moment's
-// change is the time integral of stress, or of the heat current. Both are sums over events and
-// nothing is sampled: the integral of f over a flight is a sum of time times the change of f at
-// collisions. So the derivative of the spread is Green and Kubo's integral without an error of
-// quadrature. Lags are chosen by multiple_tau.hpp. Price: a pass over the discs at each sample, and
-// some hundred instructions for each collision; memory for a few hundred numbers.
+// change is the time integral of stress, or of the heat current. Both are exact sums over
+// collisions, not over samples: the integral of f over a flight is a sum of time times the change
+// of f at collisions. So the derivative of the spread is Green and Kubo's integral without an error
+// of quadrature. Lags are chosen by multiple_tau.hpp. Price: a pass over the discs at each sample,
+// and some hundred instructions for each collision; memory for a few hundred numbers.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -60,17 +60,17 @@ public:
     void take(std::span<const PairEvent> events) override {
         for (const PairEvent& event : events) {
             const double time = event.steps_since(last_step_, run_.scene.micro_steps);
-            // Velocities relative to the drift: their sum s does not change, and r is their
-            // difference after the collision. The discs are equal and elastic, so p gains the
-            // energy i s / 2.
+            // s: sum of both velocities relative to the drift, which does not change; r: their
+            // difference after the collision. The discs are equal and elastic, so the impulse i on
+            // p gives p the energy i s / 2.
             const double sx = event.p_vx + event.q_vx - 2 * drift_[0],
                          sy = event.p_vy + event.q_vy - 2 * drift_[1], rx = event.p_vx - event.q_vx,
                          ry = event.p_vy - event.q_vy;
             const double gained = (event.ix * sx + event.iy * sy) / 2,
-                         // Difference of p and q before the collision
+                         // Energy of p minus energy of q before the collision
                 difference = (rx * sx + ry * sy) / 2 - 2 * gained;
-            // The two terms are the energy that passes from one centre to the other, and the
-            // change of the flights' integrals over the rest of the time.
+            // First term: the energy that p gives q times their separation. The second corrects for
+            // the time before the collision: `sample` adds the last current for the whole interval.
             const auto sum = [&](double r, double i, double d) {
                 return -gained * d - time * (gained * r + difference * i);
             };
@@ -100,7 +100,7 @@ public:
         change[shear_xy] = stress.xy;
         change[shear_normal] = (stress.xx - stress.yy) / 2;
         change[trace] = (stress.xx + stress.yy) / 2;
-        // The mean trace is subtracted, because it would dominate the fluctuations
+        // The estimated mean trace is subtracted, because it would dominate the fluctuations
         change[trace] -= usual_trace_;
         temperature_ += pressure_->pressures()[3];
         pressure_->forget_pressures();
@@ -143,7 +143,7 @@ public:
 private:
     using Moments = std::array<double, n_components>;
     using Level = std::vector<Moments>;
-    /// Squares of shear (mean of two), trace and heat (mean of both axes), and the trace itself.
+    /// Values of a lag: mean shear^2, trace^2, mean heat^2 and trace, for the changes over the lag.
     static constexpr std::size_t n_values = 4;
 
     /// Kinetic energy for a mass of 1, relative to the centre of mass.
@@ -187,20 +187,20 @@ private:
 
     MultipleTau scheme_;
     std::optional<PressureSampler> pressure_;
-    double speed_ = 0;              ///< typical speed, from which units follow
+    double speed_ = 0;              ///< typical speed, from which units of sums follow
     std::array<double, 2> drift_{}; ///< velocity of the centre of mass, per step
     std::array<ExactSum, 2> heat_;  ///< time integral of the heat current since the last sample
     std::int64_t last_step_ = 0;    ///< step of the last sample
     std::uint64_t n_samples_ = 0;   ///< including the first one
-    double temperature_ = 0;        ///< sum of kT over the intervals
-    double usual_trace_ = 0;        ///< subtracted mean change of the trace in an interval
+    double temperature_ = 0;        ///< sum of the mean kT of each interval
+    double usual_trace_ = 0;        ///< estimated change of the trace in an interval, subtracted
     Moments moments_{};             ///< moments of the last sample; 0 at the first one
     std::vector<Level> levels_;
     std::vector<VectorBlocks> lags_;
 };
 
-/// A coefficient is the spread divided by twice the lag. Its slope is the growth of the spread
-/// since the next shorter lag, over twice the difference of the lags: Green and Kubo's integral.
+/// A coefficient is the spread divided by `scale` and by twice the lag. Its slope is the same
+/// ratio for the growth of spread and lag since the next shorter lag: Green and Kubo's integral.
 std::vector<MeasuredTable> Transport::tables() const {
     MeasuredTable table{
         "transport",
@@ -224,7 +224,7 @@ std::vector<MeasuredTable> Transport::tables() const {
         const double mean_trace = means[3].value;
         const std::array<double, 3> spread = {
             means[0].value, means[1].value - mean_trace * mean_trace, means[2].value};
-        // With t the trace, the error of <t^2> - <t>^2 is that of the mean of t^2 - 2 <t> t.
+        // With t the trace, <t^2> - <t>^2 has the same error as the mean of t^2 - 2 <t> t.
         const std::array about_mean = {0.0, 1.0, 0.0, -2 * mean_trace};
         const std::array<double, 3> errors = {
             means[0].error, lags_[lag].weighted_mean(about_mean).error, means[2].error};

@@ -39,7 +39,7 @@ public:
 private:
     /// Whether the ratio of the box's sides changes.
     bool has_sides() const { return run_.scene.effects.barostat.axes == BarostatAxes::each; }
-    /// The area of the box for each disc, divided by the mean squared diameter in the scene.
+    /// The box's area per disc, divided by the mean squared diameter in the scene.
     double volume_of_scene() const {
         const SceneParameters& scene = run_.scene;
         return std::numbers::pi / 4 / scene.packing();

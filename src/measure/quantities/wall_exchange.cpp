@@ -54,7 +54,7 @@ public:
 
 private:
     void clear() override {
-        // Larger than the sums of any run, with a resolution of 2^-63 of a (squared) speed.
+        // No sum exceeds these bounds; resolution: 2^-62 speed_scale_^2, or 2^-62 speed_scale_
         since_last_ = {WallSums(speed_scale_ * speed_scale_ * 0x1p62),
                        WallSums(speed_scale_ * 0x1p62)};
     }

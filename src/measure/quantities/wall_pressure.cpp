@@ -52,7 +52,7 @@ public:
 
 private:
     void clear() override {
-        // Larger than the sums of any run, with a resolution of 2^-63 of a speed.
+        // This bound exceeds the sums of any run; the resolution is 2^-62 of a typical speed.
         since_last_ = WallSums(speed_scale_ * 0x1p62);
         counts_.fill(0);
     }

@@ -8,7 +8,7 @@ namespace carrom::python {
 
 namespace {
 
-/// the session of all ranks of the process; released by end_session
+/// the session of all MPI ranks, if this process has made it; released by end_session
 std::shared_ptr<Session> of_process;
 
 Options options_of(int threads, const std::shared_ptr<std::vector<std::string>>& lines) {

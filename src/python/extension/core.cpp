@@ -36,7 +36,7 @@ template <class Call> auto without_lock(const Call& call) {
     return call();
 }
 
-/// The docstring of a property that is an array over the own discs.
+/// The docstring of a property that is an array over this rank's discs.
 std::string of_own_discs(const char* what) {
     return std::string(what) + "; 0 at ids of other ranks' discs.";
 }

@@ -36,11 +36,11 @@ struct Core {
     Simulation simulation;
 };
 
-/// The session of all ranks of the process, made by the first call; or a session of the ranks of a
-/// communicator, given by its Fortran number.
+/// The session of all MPI ranks, which the first call makes and later calls share; or a session of
+/// the ranks of one communicator, given by its Fortran number.
 std::shared_ptr<Session> session_of(std::optional<int> communicator);
-/// Releases the session of all ranks, so that MPI ends with its last simulation. A forked process
-/// does not end MPI, because MPI belongs to the parent.
+/// Releases the session of all MPI ranks, so that MPI ends with its last simulation. A forked
+/// process does not end MPI, because MPI belongs to the parent.
 void end_session(bool is_forked);
 
 /// A new numpy array that owns its numbers.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Output of a run's data to standard output or a file. Writes are large, and a failure
-// is stored instead of ending the process.
+// Output of a run's data to standard output or a file. It writes in large pieces, and a failure is
+// stored instead of ending the process.
 //
-// It uses a file descriptor, so a closed pipe or a full disk is an errno at a known
-// place. The caller reports a failure to the other ranks.
+// It uses a file descriptor, so a closed pipe or a full disk gives an errno at a known
+// call. The caller reports a failure to the other ranks.
 #pragma once
 
 #include <cstddef>
@@ -17,14 +17,14 @@ namespace carrom {
 
 class DataOutput {
 public:
-    /// Opens the file and empties it; standard output if `path` is empty. From then on writing to a
-    /// closed pipe is an error of `flush`, and does not end the process.
+    /// Opens the file and empties it; uses standard output if `path` is empty. From then on writing
+    /// to a closed pipe is an error of `flush`, and does not end the process.
     explicit DataOutput(const std::string& path);
     ~DataOutput();
     DataOutput(const DataOutput&) = delete;
     DataOutput& operator=(const DataOutput&) = delete;
 
-    /// Text to append to; full buffers are written by `flush_if_full`.
+    /// The buffer to which callers append text; `flush_if_full` writes it once it is full.
     fmt::memory_buffer& buffer() { return buffer_; }
 
     void flush_if_full();
@@ -34,7 +34,7 @@ public:
     /// only now. It is also a failure if the file was removed meanwhile.
     void close();
 
-    /// The first failure, or empty. After a failure nothing more is written.
+    /// The text of the first failure, or empty. After a failure nothing more is written.
     const std::string& failure() const { return failure_; }
 
 private:
@@ -49,8 +49,8 @@ private:
     std::string failure_;
 };
 
-/// The problem that would keep a DataOutput from opening `path`, if it can be known. Does not
-/// change the file.
+/// The problem that would keep a DataOutput from opening `path`, as far as a test can find it. Does
+/// not change the file.
 WriteProblem write_problem_of_stream(const std::string& path);
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one place that decides what may be written where. Every output of every subcommand that a
-// user names is checked here, before anything is opened for writing, so that nothing is lost.
+// user names is checked here, before anything is opened for writing, so that no file is lost.
 //
 // An output must not be a file that is read, another output, or a file that a run or replicas own
 // (owned_files.hpp). It must not replace a file with another kind of content.
@@ -21,7 +21,7 @@ struct NamedFile {
 
 /// How an output is written, and which files it may replace.
 enum class Output {
-    text,   ///< written in place, so it may be a pipe or a terminal; replaces texts
+    text,   ///< written in place, so it may be a pipe or a terminal; replaces FileContent::other
     report, ///< written as a whole; replaces reports
     table,  ///< a new CSV file
     /// A scene, or a file of discs, whose name this program has

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks before a run begins: its outputs can be written, are not read and do not
-// belong to another run, and no other run is writing there now.
+// Checks before a run begins: its outputs can be written, are none of the files that it reads, and
+// belong to no other run; and no other run is writing there now.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ namespace carrom {
 struct PlaceProblems {
     std::vector<Problem> problems, failures;
 
-    /// Adds the problem, if there is one; `key` names the path.
+    /// Adds the problem, if there is one; `key` is the key or option that sets `path`.
     void note(const std::string& key, const std::string& path, const WriteProblem& found);
     std::vector<Problem> all() const;
     /// Throws with code 2 if there are problems, with code 4 if there are only

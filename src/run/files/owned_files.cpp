@@ -78,7 +78,7 @@ std::string owner_of_spelling(const fs::path& path, const std::string& own_folde
 }
 
 /// Whether a text begins like a table of measurements, of replicas or of accuracy: with the table's
-/// name or the columns.
+/// name, or with the names of its columns.
 bool begins_as_table(std::string_view text) {
     const std::string_view line = text.substr(0, text.find('\n'));
     const bool is_measured = line.starts_with("# ") && line.find(": ") != std::string_view::npos;

@@ -39,8 +39,8 @@ int sync_folder_of(const std::string& path) {
     return error;
 }
 
-/// A new file in the folder of `path`, removed unless it is renamed. It never replaces a file or
-/// follows a link. If `number` is negative, `errno` has the reason.
+/// A new file in the folder of `path`, removed unless it is renamed. Making it never replaces a
+/// file or follows a link. If `number` is negative, `errno` has the reason.
 class FileBeside {
 public:
     explicit FileBeside(const std::string& path) {

@@ -15,7 +15,7 @@ namespace carrom {
 /// it before the run. Leaves no file behind.
 WriteProblem write_problem_of_file(const std::string& path);
 
-/// Replaces `path` by a file with this text. Returns the problem, or empty.
+/// Replaces `path` by a file with this text. Returns the problem, or an empty text.
 std::string write_whole_file(const std::string& path, const std::string& text);
 
 /// Appends the whole text to a file, or nothing. If `is_new`, the file must not exist yet. Returns

@@ -47,8 +47,8 @@ bool is_there(const std::string& path) {
     return fs::symlink_status(path, error).type() != fs::file_type::not_found;
 }
 
-/// Whether a recording has no steps after 0, so that a new run would record the same contents.
-/// False if the file cannot be read.
+/// Whether a recording has no frame or collision after step 0, so that a new run would record the
+/// same contents. False if the file cannot be read.
 bool is_of_start(const std::string& path) {
     try {
         const FileSummary summary = FrameFile(path).summary();
@@ -74,8 +74,8 @@ bool is_segment(const fs::path& path) {
            stem.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// Whether a run may have written a file, by its name and, for a table, by its first
-/// line, which names the table.
+/// Whether a run may have written a file, by its name and, for a table, by its contents: a
+/// CSV file's first line names the table.
 bool is_written_by_run(std::string_view folder, const fs::path& path) {
     std::error_code error;
     if (!fs::is_regular_file(fs::symlink_status(path, error))) return false;

@@ -3,7 +3,7 @@
 // which it can be continued.
 //
 // A lock ensures that only one run writes there at a time. A run from step 0 needs a folder without
-// a run. Rank 0 makes all these calls.
+// a run, or the option --overwrite. Only rank 0 calls these functions.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ std::string problem_with_copy(const SceneParameters& scene);
 /// The path of the copy of the scene; empty if there is none.
 std::string scene_copy_of(const std::string& folder);
 
-/// The overrides listed in a copy of a scene, on top of its text; empty for other files.
+/// The overrides that a copy of a scene lists before the scene's text; empty for other files.
 std::vector<std::string> overrides_of_copy(const std::string& path);
 
 /// Describes the difference between the folder's run and the scene; empty if there is
@@ -59,7 +59,7 @@ void remove_run(const std::string& folder);
 /// Describes why `remove_run` cannot remove all files; empty if it can.
 std::string problem_of_removal(const std::string& folder);
 
-/// Makes the folders and writes the copy of the scene. Throws FileError.
+/// Makes the run's folders and writes the copy of its scene. Throws FileError.
 void prepare_folder(const SceneParameters& scene);
 
 } // namespace carrom

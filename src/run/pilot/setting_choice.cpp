@@ -14,14 +14,14 @@ namespace carrom {
 
 namespace {
 
-constexpr double approach = 10; ///< collisions of a disc before the measurement of a trial begins
+constexpr double approach = 10; ///< mean number of collisions of a disc before the trials begin
 constexpr double certainty = 2; ///< standard errors that are added to a measured error
-constexpr double most_collisions = 4e6; ///< number of pair collisions in a trial
-/// The best accuracy that a trial of 4e6 collisions resolves; sqrt(4e6) is 2000
+constexpr double most_collisions = 4e6; ///< largest result of collisions_needed
+/// The smallest error that 4e6 collisions can show; sqrt(4e6) is 2000
 constexpr double least_accuracy = 4 * certainty / 2000;
 /// The least number of collisions of a disc in a trial, because errors in dense gases appear late
 constexpr double per_disc = 100;
-/// Trials need this many pair collisions to be timed, or these numbers of disc-steps and steps.
+/// To be timed, trials need this many pair collisions, or both this many disc-steps and steps.
 constexpr double fewest_collisions = 2e4;
 constexpr double long_enough = 2e4;
 constexpr double long_enough_steps = 1e3;
@@ -68,7 +68,7 @@ struct Pilot {
     const Tuning& tuning;
 };
 
-/// Runs a trial's next stretch from the discs in `at`, and replaces them by its last discs.
+/// Runs a trial's next stretch from the discs in `at`, and replaces them by the discs at its end.
 Trial run_stretch(const Pilot& pilot, const RunSetting& setting, std::size_t stretch,
                   TrialStart& at) {
     TrialLength length;
@@ -87,10 +87,10 @@ std::vector<Trial> run_event_driven(const Pilot& pilot) {
     return trials;
 }
 
-/// The results of trials of a setting so far.
+/// The results of a setting's trial so far.
 struct Experience {
     TrialError error;                          ///< error in its last stretch
-    double seconds = 0, reference_seconds = 0; ///< time so far in the trial and in the exact run
+    double seconds = 0, reference_seconds = 0; ///< time of the trial and of the exact run so far
     /// Whether the trial ran to its end; false if it was stopped because of its error
     bool is_whole = false;
     bool grows = false; ///< whether overlaps keep growing, so that errors grow, too
@@ -130,7 +130,7 @@ Choice choose(const Pilot& pilot, double accuracy) {
     const std::vector<Trial> exact = run_event_driven(pilot);
     double steps = 0;
     for (const Trial& trial : exact) steps += static_cast<double>(trial.steps);
-    bool was_slower = false; // wait for a second slow K, because K may be slower than 2 K
+    bool was_slower = false; // two slow K are needed, because K may be slower than 2 K
     for (std::int64_t k = 1; k <= most_micro_steps; k *= 2) {
         const RunSetting setting{Method::time_stepped, k};
         const Experience found = try_setting(pilot, setting, exact, accuracy);

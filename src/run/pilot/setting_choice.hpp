@@ -4,9 +4,9 @@
 //
 // A pilot brings the scene's discs to equilibrium and runs them by the event-driven method. Then it
 // tries the time-stepped method with K = 1, 2, 4, ... micro-steps, until a K is accurate enough, or
-// two in succession are as slow as the event-driven method. Cost grows with K, so the first K that
-// is accurate is the fastest one. It has to be accurate after 100 collisions of a disc; in dense
-// gases errors may grow later. Single precision and the naive formula save almost no time
+// two in succession are as slow as the event-driven method. Cost mostly grows with K, so the first
+// accurate K is taken as the fastest. It has to be accurate after 100 collisions of a disc; in
+// dense gases errors may grow later. Single precision and the naive formula save almost no time
 // (docs/understanding/accuracy.md).
 #pragma once
 
@@ -31,7 +31,7 @@ void decide_on(SceneParameters& scene, const RunSetting& setting);
 /// The difference between the results of a trial and of the exact run.
 struct TrialError {
     double frequency = 0, pressure = 0; ///< relative differences
-    double error = 0;                   ///< the larger of the two standard errors
+    double error = 0;                   ///< a bound for the standard error of either
 
     double largest() const;
 };

@@ -15,10 +15,10 @@ namespace carrom {
 namespace {
 
 constexpr std::int64_t unlimited_steps = std::int64_t{1} << 40;
-/// Throws if discs have not collided often enough after this number of steps.
+/// The pilot fails if discs have not collided often enough after this number of steps.
 constexpr std::int64_t longest_approach = 1 << 20;
 
-/// CPU time of all threads of this process, so other programs on the machine do not count.
+/// CPU seconds of all threads of this process, so other programs on the machine do not count.
 double process_seconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

@@ -16,7 +16,7 @@
 
 namespace carrom {
 
-/// One way to run a scene.
+/// The settings of a scene that trials change.
 struct RunSetting {
     Method method = Method::time_stepped;
     std::int64_t micro_steps = 1;
@@ -27,7 +27,7 @@ struct RunSetting {
     friend bool operator==(const RunSetting&, const RunSetting&) = default;
 };
 
-/// The scene with that setting.
+/// The scene with this setting, and without `time.accuracy`.
 SceneParameters with_setting(SceneParameters scene, const RunSetting& setting);
 
 /// Discs in equilibrium, made by the event-driven method, from which trials start.
@@ -50,18 +50,18 @@ struct Trial {
     Totals totals;                         ///< totals at the trial's end
     double overlapping_pairs_per_disc = 0; ///< simultaneous overlaps of a disc, mean over samples
     double deepest_overlap = 0;            ///< deepest overlap of all samples, in diameters
-    double core_seconds = 0;               ///< time of stepping, summed over all ranks and threads
-    double wall_seconds = 0;               ///< time of stepping, on the slowest rank
-    /// Discs of this rank at `early_step`, by id; empty if `early_step` is 0
+    double core_seconds = 0;               ///< CPU time of the steps, summed over ranks and threads
+    double wall_seconds = 0;               ///< wall time of the steps on the slowest rank
+    /// Discs of this rank at `early_step`, sorted by id; empty if `early_step` is 0
     std::vector<InputDisc> early;
 };
 
-/// This rank's discs as they are now, by id, in the scene's units.
+/// This rank's discs at the system's present time, sorted by id, in the scene's units.
 std::vector<InputDisc> discs_now(const DiscSystem& system);
 
 struct TrialLength {
     std::int64_t steps = 1;
-    std::int64_t early_step = 0; ///< the step at which positions are stored, or 0
+    std::int64_t early_step = 0; ///< the step of the discs in Trial::early, or 0
     int n_samples = 16;          ///< number of samples of overlaps
 };
 

@@ -80,7 +80,7 @@ void claim(StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     }
 }
 
-/// Makes the first discs unless the run continues, and warns of doubtful scenes. **Collective.**
+/// Makes the first discs unless the run continues, and warns of likely mistakes. **Collective.**
 void make_discs(const StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     const RunOptions& options = plan.options;
     SceneParameters& scene = loaded.scene;

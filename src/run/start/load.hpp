@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Carries out the plan of how a run begins: reads the checkpoint or makes the first discs, and
-// claims the outputs. All errors of the input are found here or in the plan.
+// claims the outputs. All errors of the input are found here or while planning.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ namespace carrom {
 struct Loaded {
     SceneParameters scene;
     RunStart start;
-    std::vector<WriteLock> locks; ///< locks of rank 0 on all outputs
+    std::vector<WriteLock> locks; ///< rank 0's lock of the output folder, if there is one
 };
 
 /// Throws InputError on every rank with the problems of the checkpoint, of the outputs' paths, or

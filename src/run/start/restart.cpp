@@ -33,7 +33,7 @@ std::string place_of(const RunOptions& options) {
 /// Whether the newest checkpoint of the run's own folder is used.
 bool is_own(const RunOptions& options) { return options.resume || options.restart == "latest"; }
 
-/// The folder of the run itself.
+/// The folder of the run's own checkpoints.
 std::string own_folder(const RunOptions& options, const SceneParameters& scene) {
     if (scene.checkpoint) return scene.checkpoint->folder;
     if (!options.folder.empty()) return checkpoints_of_run(options.folder);
@@ -72,8 +72,8 @@ std::vector<std::string> candidates_in(
     return paths;
 }
 
-/// Reads the checkpoint, and sets the scene if there is none yet. Throws if the checkpoint does not
-/// belong to the scene's run.
+/// Reads the checkpoint, and takes the scene from it if there is no input. Throws if the checkpoint
+/// does not belong to the scene's run. **Collective.**
 Checkpoint read_matching(const std::string& path, const RunOptions& options, SceneParameters& scene,
                          const Communicator& ranks) {
     Checkpoint checkpoint = read_checkpoint(path, ranks);
@@ -102,7 +102,7 @@ std::string reasons(const InputError& error) {
     return text;
 }
 
-/// The newest undamaged candidate of this run. **Collective.**
+/// The newest undamaged checkpoint of this run in `paths`, sorted newest first. **Collective.**
 std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths,
                                       const RunOptions& options, SceneParameters& scene,
                                       const Communicator& ranks) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Restarts from a checkpoint. The plan contains where to search for checkpoints, and which files
-// exist. It uses only options and the names of files. `read_restart` reads the newest of these
-// files that is undamaged and belongs to the scene's run.
+// exist. It follows from options and the names of files alone. `read_restart` reads the newest of
+// these files that is undamaged and belongs to the scene's run.
 #pragma once
 
 #include <optional>
@@ -43,11 +43,11 @@ RestartPlan plan_restart(const RunOptions& options, const SceneParameters& scene
 /// **Collective.**
 bool has_other_checkpoints(RestartPlan& plan, const Communicator& ranks);
 
-/// Reads the newest undamaged checkpoint of the plan; rank 0 reports why others are skipped. If no
-/// input was named, `scene` becomes the checkpoint's scene with the options' overrides on top.
-/// Returns nothing if the run starts at step 0. Throws on every rank (exit code 2) if a named file
-/// is damaged, if a named folder has no checkpoint, if all checkpoints of a folder are damaged, or
-/// if a checkpoint does not belong to the scene's run. **Collective.**
+/// Reads the plan's newest checkpoint that is undamaged and of the scene's run. Rank 0 reports why
+/// it skips others. Without an input `scene` becomes the checkpoint's, with the options' overrides.
+/// Returns nothing if the run starts at step 0. Throws on every rank (exit code 2) if a named file,
+/// or all checkpoints of a folder, are unusable, if a named folder has none, if there is no
+/// checkpoint and no input, or if the checkpoint is later than the run's last step. **Collective.**
 std::optional<RunStart> read_restart(const RestartPlan& plan, const RunOptions& options,
                                      SceneParameters& scene, const Communicator& ranks);
 

@@ -75,8 +75,8 @@ struct FromFile {
     double radius = 0;   ///< radius of the largest disc in the file
 };
 
-/// The end of that warning if discs.packing changes the radii, because discs have departed; empty
-/// if the radii are the same.
+/// An addition to the warning of departed discs if discs.packing gives the remaining discs other
+/// radii; empty if the radii are the same.
 std::string note_on_radius(const SceneParameters& scene, const FromFile& from) {
     if (!(scene.radius > from.radius * (1 + 1e-9))) return {};
     const std::string remedy = scene.sizes ? "discs.radius.mean"
@@ -106,8 +106,8 @@ void refuse_folder(const SceneParameters& scene, const std::string& path,
     });
 }
 
-/// Makes the discs of `discs.from` the lines after the scene's text: on rank 0 all of them, on the
-/// other ranks those of their shares. **Collective.**
+/// Writes the discs of `discs.from` as lines of text into `stream`, as if they followed the scene's
+/// text: all discs on rank 0, their shares on the other ranks. **Collective.**
 FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<std::istream>& stream,
                                 Problems& of_root, const Communicator& ranks) {
     const std::string path = discs_path(scene);

@@ -28,7 +28,7 @@ struct SceneSource {
     std::unique_ptr<std::istream> stream{};
 };
 
-/// Reads the scene with the settings on top. Discs of `discs.from` become the lines that follow its
+/// Reads the scene; `settings` override its keys. Discs of `discs.from` become lines after its
 /// text. The columns and the number of discs in a file of discs become settings. The columns of
 /// radii, masses and so on are read, too; they are incomplete if lines are wrong, see
 /// `disc_line_problems_of`. Appends problems found by all ranks to `problems`, and those found by

@@ -52,7 +52,7 @@ std::vector<NamedFile> read_by(const RunOptions& options) {
     return sources;
 }
 
-/// Adds the problems of the places that the options name.
+/// Adds the problems of the output paths that the options name.
 void check_destinations(const RunOptions& options, PlaceProblems& found) {
     const Problems shared = problems_with(outputs_named_by(options), read_by(options));
     if (!options.output.empty())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The plan of how a run begins: its scene, and whether it continues from a checkpoint. The plan
-// follows from options, the scene's text and the names of files. Planning reads no disc, and makes
-// and locks nothing. load.hpp carries out the plan.
+// follows from options, the scene's text and the names of files. Planning makes no discs, and
+// leaves no new file or lock. load.hpp carries out the plan.
 //
 // Rank 0 opens files and reads; the other ranks get the bytes, so all ranks find the same scene or
 // the same problems. No output of the run has been written when a problem is printed.
@@ -33,7 +33,7 @@ struct StartPlan {
 };
 
 /// Throws InputError on every rank with `problems` (found so far, the same on all ranks), and with
-/// those of the paths in options, of the scene and of its outputs' paths. If there are none, it
+/// problems of the paths in options, of the scene and of its outputs' paths. If there are none, it
 /// throws the problems of finding a checkpoint. **Collective.**
 StartPlan plan_start(const RunOptions& options, const std::vector<Problem>& problems,
                      const Communicator& ranks);
@@ -49,8 +49,8 @@ SceneParameters load_scene_alone(const RunOptions& options, const std::vector<Pr
 /// Adds the problem if a scene that writes files has no folder to write to.
 void check_folder(const SceneParameters& scene, std::vector<Problem>& problems);
 
-/// The files that the options name as outputs. They are checked before the run, so that it can
-/// write them at its end, and does not empty its own input.
+/// The files that the options name as outputs. They are checked before the run, so that writing
+/// them does not fail at its end, and does not overwrite its input.
 std::vector<Destination> outputs_named_by(const RunOptions& options);
 /// The files that the run reads, which must not be outputs.
 std::vector<NamedFile> files_read_for(const RunOptions& options, const SceneParameters& scene);

@@ -24,9 +24,9 @@ struct BoundaryDeclaration {
     std::string_view help; ///< description of a side of this kind, for the page of keys
     /// Whether discs bounce off the side, so that `restitution` applies to it.
     bool has_restitution = false;
-    // Properties that other features depend on. A feature that requires a property, such as
+    // Properties that other features depend on. A feature that requires one of them, such as
     // `takes_growing_discs`, cannot be combined with a kind that lacks it.
-    bool is_at_rest = true;                         ///< its line never moves
+    bool is_at_rest = true;                         ///< the side never moves
     bool lets_discs_rest = false;                   ///< see EffectDeclaration::lets_discs_rest
     bool takes_growing_discs = false;               ///< growing discs may touch it
     bool (*runs_on_gpu)(const Boundary&) = nullptr; ///< see EffectDeclaration::runs_on_gpu
@@ -36,8 +36,8 @@ struct BoundaryDeclaration {
     std::vector<Table> tables = {};
     std::vector<Key> keys = {};
     std::vector<Rule> rules = {};
-    /// Checks of several values together. `check_times` checks times; `check_room` runs only with a
-    /// valid box and valid discs.
+    /// Checks that involve several values: `check_times` checks times, and always runs;
+    /// `check_room` runs only if box and discs are valid.
     void (*check_times)(const SceneDraft&) = nullptr;
     void (*check_room)(const SceneDraft&) = nullptr;
     /// The text in the summary's line about effects, for a side called `name`.
@@ -45,7 +45,7 @@ struct BoundaryDeclaration {
     CheckAllowance (*allowance)(const Boundary&) = nullptr;
 };
 
-/// All kinds in the order of the list, which is the order of the reference.
+/// All kinds in the order of the list in CMakeLists.txt, as on the reference page.
 const std::vector<BoundaryDeclaration>& all_boundaries();
 
 /// The keys of all four sides, ordered by side.
@@ -67,7 +67,7 @@ Need side_reflects(std::size_t side);
 Need side_needs(std::size_t side, BoundaryKind kind);
 /// Text such as " of restitution 0.9" for summaries; empty if the wall is elastic.
 std::string loss_text(const Boundary& side);
-/// Whether the discs can fit into a box of this width and height.
+/// Whether discs may fit into a box of this size: by their area, and the largest by its diameter.
 bool has_room(const SceneParameters& scene, double width, double height);
 
 } // namespace carrom

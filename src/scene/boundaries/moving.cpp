@@ -31,7 +31,7 @@ std::vector<Rule> rules_of_moving_sides() {
     };
 }
 
-/// Walls that move must leave room for the discs until the last step.
+/// Until the last step, moving walls must leave room for discs, and at most double the box's edges.
 void check_moving_walls(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const auto& sides = scene.effects.boundaries;

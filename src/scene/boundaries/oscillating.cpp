@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A wall that oscillates about its line: a shaker (dynamics/oscillation.hpp). The self-check
-// computes the largest work of such a wall from its speed, so it needs no allowance.
+// computes the largest work of such a wall from its speed, so the wall declares no allowance.
 #include <algorithm>
 
 #include "dynamics/oscillation.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A periodic side with images that move. Its rate and its rules of conflict are declared with the
-// flow (scene/effects/shear.cpp), because both sides share them.
+// A periodic side with images that move. The shear rate and the rules of conflict are declared with
+// the flow (scene/effects/shear.cpp), because the bottom and the top side share them.
 #include "scene/boundaries/boundary.hpp"
 
 namespace carrom::boundaries {

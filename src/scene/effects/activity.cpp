@@ -62,14 +62,14 @@ public:
     }
 
 private:
-    /// A random direction at the next sync, for a disc whose direction is `angle` now.
+    /// Draws the direction at this sync for a disc whose direction was `angle` since the last one.
     double later(double angle, DiscRandom random) const {
         if (kept_ < 1 && random.uniform() >= kept_) return random_angle(random);
         return wrapped_angle(spread_ > 0 ? angle + spread_ * random_normals(random).x : angle);
     }
 
     std::uint64_t seed_;
-    double speed_, momentum_; ///< gain of a disc at a sync, as speed or momentum; the other is 0
+    double speed_, momentum_; ///< speed or momentum that a disc gains at a sync; the other is 0
     double spread_;           ///< root mean square of the change of angle between syncs
     double kept_;             ///< probability that a disc does not tumble between syncs
 };
@@ -132,7 +132,7 @@ std::vector<Rule> rules_of_activity() {
     };
 }
 
-/// Reports directions that nearly always change between syncs, and so have no effect.
+/// Reports rates so high that a direction hardly depends on the one at the sync before.
 void check_times_of_activity(const SceneDraft& draft) {
     constexpr double longest = 4;
     const Activity& activity = draft.scene.effects.activity;
@@ -146,7 +146,7 @@ void check_times_of_activity(const SceneDraft& draft) {
                                             key, rate, longest, longest / interval));
 }
 
-/// The largest speed of free discs whose directions do not change.
+/// The speed that the lightest discs reach if they are free and their directions do not change.
 double speed_of(const SceneParameters& scene) {
     const Activity& activity = scene.effects.activity;
     if (activity.force == 0 || scene.effects.thermostat.rate == 0) return activity.speed;

@@ -4,20 +4,20 @@
 //
 // The box keeps its edges, and all radii are multiplied by one factor s. In units of the discs, the
 // box and the positions in it become smaller or larger together. The positions in units of the box
-// and the volume V = A / (s^2 <d^2>), with the mean <d^2> of the squared diameters, have
-// the weight
+// and the volume V = A / (s^2 <d^2>), with the box's area A and the mean <d^2> of the squared
+// diameters in the scene, have the weight
 //     V^N exp(-p V),   p = P <d^2> / kT,   if no two discs overlap.
 // The structure of hard discs does not depend on temperature. So velocities stay as they are, in
 // the unit of the box, and any kT gives the same result.
 //
-// At a sync the closest pair limits how far radii can grow. It is a minimum over all pairs, so all
-// ranks find the same limit. With the discs at rest the weight is a function of V alone, so the
+// At a sync the closest pair limits how far radii can grow. The limit is a minimum over pairs, so
+// all ranks find the same one. With the discs at rest the weight is a function of V alone, so the
 // `n_moves` moves of a sync take almost no time. Each move draws a new volume V' evenly from a
 // range about the present one, and accepts it with the probability min(1, exp(-p (V' - V)) (V' /
-// V)^N) (Metropolis). During a sync V stays in a cell of a fixed partition, in which lengths differ
-// by 10 %, so that only pairs up to this distance must be known. The partitions of even and odd
-// syncs differ by half a cell. So each sync conserves the distribution exactly, and V can reach any
-// value.
+// V)^N) (Metropolis). During a sync s stays in a cell of a fixed partition, whose ends differ by a
+// factor of 1.1, so that only pairs closer than the largest diameter in the cell must be known. The
+// partitions of even and odd syncs differ by half a cell. So each sync conserves the distribution
+// exactly, and V can reach any value.
 //
 // With `axes = "each"` the ratio of the sides changes as well, at a constant area: x positions are
 // multiplied by a factor t, y positions are divided by it. In units of the discs, each side then
@@ -51,11 +51,11 @@ inline constexpr std::array words_of<BarostatAxes>{Word{"together", BarostatAxes
 namespace {
 
 constexpr int n_moves = 64;
-constexpr double cell_ratio = 1.1; ///< ratio of the lengths at both ends of a cell
+constexpr double cell_ratio = 1.1; ///< ratio of the factors s at both ends of a cell
 /// Ratio of the sides along x at both ends of a cell
 constexpr double stretch_ratio = 1.1;
 
-/// ln(a / b) for ratios of up to 1.5, by the series of 2 artanh((a - b) / (a + b)), to 2^-53.
+/// ln(a / b) for ratios from 2/3 to 3/2, by the series of 2 artanh((a - b) / (a + b)).
 double log_ratio(double a, double b) {
     const double z = (a - b) / (a + b), square = z * z;
     double sum = 0;
@@ -166,9 +166,9 @@ private:
     double most_size() const { return box_.shortest() / shortest_; }
     Cell cell_at(std::int64_t n_syncs) const { return cell_of(size_, cell_ratio, n_syncs); }
 
-    /// The largest change of a move: a few times V / (N (Z - 1)), the typical compression until the
-    /// closest pair touches. It is the same throughout the cell, so that a move and its reverse
-    /// have the same probability.
+    /// The largest change of V in a move: a few times V / (N (Z - 1)), by which V can typically
+    /// shrink until the closest pair touches. It is the same throughout the cell, so that a move
+    /// and its reverse are proposed with the same probability.
     double range_in(const Cell& cell) const {
         const double volume = volume_at(cell.high),
                      excess = std::max(barostat_.pressure * volume / n_discs_ - 1,

@@ -173,8 +173,8 @@ std::string summary_of_contacts(const Effects& effects) {
     return {};
 }
 
-/// Whether collisions take energy, rotational energy included. Elastic surfaces take none if they
-/// are smooth, or if they stick without a loss of energy.
+/// Whether collisions reduce the sum of kinetic and rotational energy. Discs of restitution 1 keep
+/// it if their surfaces are smooth, or stick and reverse all of the sliding velocity.
 bool take_energy(const ContactEffect& contact) {
     if (contact.kind == ContactKind::restitution) return true;
     if (contact.kind != ContactKind::rough) return false;

@@ -32,7 +32,7 @@ std::vector<Rule> rules_of_drag() {
     };
 }
 
-/// Limits the time between syncs, because after a long one hardly any velocity would be left.
+/// Limits the time between syncs, because discs would lose nearly all velocity in a longer one.
 void check_times_of_drag(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const double interval = steps_between_syncs(scene);
@@ -56,7 +56,7 @@ EffectDeclaration drag() {
         .check_times = check_times_of_drag,
         .summary =
             [](const Effects& e) { return e.drag != 0 ? fmt::format("drag {:g}", e.drag) : ""; },
-        // The share is 1 under a force, because the lost energy then depends on the flight.
+        // Under a force this is 1, an upper bound, because the loss depends on each disc's path.
         .energy_left =
             [](const Effects& e, double time) {
                 return e.acceleration().is_on() ? 1 : std::exp(-2 * e.drag * time);

@@ -37,14 +37,14 @@ namespace carrom {
 struct CheckAllowance {
     bool collisions_take_energy = false;
     bool walls_give_energy = false; ///< walls do work; the amount is only known during the run
-    bool acts_at_syncs = false;     ///< velocities change at syncs; the engine sums up the energy
+    bool acts_at_syncs = false;     ///< velocities change at syncs; the engine sums the energy gain
     /// Whether velocities change again between the state at a sync and the flights after it
     bool acts_before_flights = false;
     /// Whether surfaces do work in collisions: see EffectDeclaration::work_in_collision
     bool surfaces_give_energy = false;
 };
 
-/// A disc in the box. Its unit of time is the unit of the Effects that are passed together with it.
+/// A disc in the box. Its unit of time is that of the Effects that a function gets along with it.
 struct ShownDisc {
     double x = 0, y = 0, vx = 0, vy = 0, spin = 0;
     SizeAndMass has;
@@ -92,7 +92,7 @@ enum class Drift : std::uint8_t {
     /// Part of the temperature, because the axis has walls, or because momentum is exchanged in
     /// both directions
     is_heat,
-    is_kept,   ///< subtracted, because nothing stops it; it is one of N degrees of freedom
+    is_kept,   ///< subtracted, because nothing stops it; N - 1 degrees of freedom are left
     is_driven, ///< subtracted, because it is a flow; velocities relative to it fluctuate
 };
 
@@ -105,8 +105,8 @@ struct EffectDeclaration {
     /// The contents of a file that the scene names, as settings. Checkpoints store these, so that
     /// restarts do not need the file. Called on rank 0; throws InputError.
     std::vector<std::string> (*settings_of_file)(const SceneParameters&) = nullptr;
-    /// Checks of several values together. `check_times` checks times; `check_room` runs only with a
-    /// valid box and valid discs.
+    /// Checks that involve several values: `check_times` checks times, and always runs;
+    /// `check_room` runs only if box and discs are valid.
     void (*check_times)(const SceneDraft&) = nullptr;
     void (*check_room)(const SceneDraft&) = nullptr;
     /// The effect's text in the summary's line about effects; empty in a scene without the effect.
@@ -115,9 +115,9 @@ struct EffectDeclaration {
     /// The effect's energy; nothing in a scene whose discs do not have this energy.
     std::optional<OtherEnergy> (*energy)(const Effects&) = nullptr;
     // The next three functions serve the self-check and use the micro-step as the unit of time. The
-    // first returns the share of the kinetic energy that is left after `time`.
+    // first returns an upper bound of the share of the kinetic energy that is left after `time`.
     double (*energy_left)(const Effects&, double time) = nullptr;
-    /// The energy that a disc gains along its path.
+    /// The kinetic energy that the effect gives to a disc along its displacement.
     double (*work)(const Effects&, const Way&) = nullptr;
     /// The energy that surfaces give in a collision with this impulse and sum of radii.
     double (*work_in_collision)(const Effects&, double impulse, double radii) = nullptr;
@@ -129,11 +129,11 @@ struct EffectDeclaration {
     std::unique_ptr<SyncEffect> (*at_syncs)(const SceneParameters&) = nullptr;
     /// The numbers at the end of a run, from the values that the effect kept after the last sync.
     std::vector<EndNumber> (*at_end)(std::span<const std::int64_t> kept) = nullptr;
-    /// Whether the effect compensates at syncs for earlier changes of energy, so that the kinetic
-    /// energy jumps at each sync.
+    /// Whether the effect reverses, at each sync, changes of energy since the sync before, so that
+    /// the mean kinetic energy jumps there.
     bool (*makes_energy_jump)(const Effects&) = nullptr;
-    /// How the effect exchanges momentum with discs in other ways than through the sides of the
-    /// box; null if it does not.
+    /// How the effect exchanges momentum with all discs along a periodic axis, for example by a
+    /// thermostat or by sides that rub; null if it does not.
     CommonMotion (*common_motion)(const Effects&, Axis) = nullptr;
     /// Whether kernels of GPUs contain the effect. If the function is missing, the effect cannot be
     /// combined with machine.gpu.
@@ -142,7 +142,7 @@ struct EffectDeclaration {
     std::string (*reason_without_z)(const Effects&) = nullptr;
 };
 
-/// All effects in the order of the list, which is the order of the reference.
+/// All effects in the order of the list in CMakeLists.txt, as on the reference page.
 const std::vector<EffectDeclaration>& all_effects();
 
 /// One line for a summary, such as "restitution 0.9 of pairs; drag 0.01"; empty if there
@@ -152,7 +152,7 @@ std::string summary_of(const Effects& effects);
 CheckAllowance allowance_of(const Effects& effects);
 /// The energies other than kinetic energy, in the order of the effects.
 std::vector<OtherEnergy> other_energies_of(const Effects& effects);
-// Combined over all effects: see EffectDeclaration for each of these functions.
+// For each of these functions: the product or the sum over all effects; see EffectDeclaration.
 double energy_left_by(const Effects& effects, double time);
 double work_on_way(const Effects& effects, const Way& way);
 double work_in_collision(const Effects& effects, double impulse, double radii);
@@ -165,15 +165,15 @@ std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
 std::string reason_without_z(const Effects& effects);
 /// Whether the mean kinetic energy jumps at syncs.
 bool does_energy_jump(const Effects& effects);
-/// Warns if the kinetic energy changes much between syncs, or if samples do not give its mean over
-/// time.
+/// Warns if the kinetic energy changes much between syncs, or if the samples' mean of it is not the
+/// mean over time.
 void check_energy_jumps(const SceneDraft& draft);
 /// How the common velocity of all discs along `axis` is treated in temperature, pressure and
 /// displacements. No other function decides this.
 Drift drift_along(Axis axis, const Effects& effects);
-/// Why kT, P and Z are undefined for this number of discs; empty if they are defined. Along a
-/// periodic axis on which nothing stops the common motion, a single disc has no velocity relative
-/// to the centre of mass, so no temperature.
+/// Why kT, P and Z are undefined for this number of discs; empty if they are defined. A single disc
+/// has no velocity relative to the centre of mass, and so no temperature along a periodic axis on
+/// which nothing stops the common motion.
 std::string reason_without_temperature(const Effects& effects, std::uint64_t n_discs);
 /// The settings from all files of effects. Called on rank 0; throws InputError.
 std::vector<std::string> settings_of_effect_files(const SceneParameters& scene);

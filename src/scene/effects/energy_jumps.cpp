@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks scenes in which the mean kinetic energy changes between syncs and jumps back at syncs.
-// They need frequent syncs, and samples at all times between two syncs, or before and after the
-// jumps.
+// Such scenes need frequent syncs, and samples that are spread over the time between two syncs or
+// include syncs, where they are taken alternately before and after the jump.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -23,8 +23,8 @@ bool does_energy_jump(const Effects& effects) {
 
 namespace {
 
-/// The kT to which a thermostat brings a gas. For kicks it is the steady state of a dilute
-/// inelastic gas.
+/// The kT to which a thermostat brings a gas in the long run. For kicks it is the kT of the steady
+/// state of a dilute inelastic gas, or 0 for elastic discs, which have no steady state.
 double temperature_in_the_end(const SceneParameters& scene) {
     const Thermostat& t = scene.effects.thermostat;
     if (t.has_temperature()) return t.temperature;
@@ -49,8 +49,8 @@ void warn_of_rare_acts(const SceneDraft& draft) {
     constexpr double most = 4;
     const double density = static_cast<double>(scene.n_discs) / scene.area(),
                  often = 2 * std::sqrt(std::numbers::pi * temperature_in_the_end(scene)) * density *
-                         2 * scene.radius; // for a dilute gas; the rate is higher in dense
-                                           // gases
+                         2 * scene.radius; // collisions of a disc per step, in a dilute gas;
+                                           // the rate is higher in a dense one
     const bool changes = scene.effects.are_sheared() || are_pairs_lossy(scene.effects);
     if (changes && often * interval > most)
         scene.warnings.push_back(fmt::format(
@@ -59,8 +59,8 @@ void warn_of_rare_acts(const SceneDraft& draft) {
             often * interval, std::max(1.0, static_cast<double>(scene.micro_steps) / (2 * often))));
 }
 
-/// Warns of samples that always have the same delay after a sync, because they do not give the mean
-/// over time. Samples at syncs do, because they are taken alternately before and after the effects.
+/// Warns of samples that have only a few different delays after a sync, because they do not give
+/// the mean over time. Samples at syncs are taken alternately before and after the effects.
 void warn_of_samples_between_syncs(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements || !does_energy_jump(scene.effects)) return;

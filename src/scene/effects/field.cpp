@@ -6,8 +6,8 @@
 // The map is symplectic and reversible, so free discs conserve an energy that differs from m v^2 /
 // 2 + V by a share of at most (w t)^2 / 4, with w^2 = V'' / m, and energy does not drift. In a trap
 // the disc stays exactly on an ellipse, with the frequency w (1 + (w t)^2 / 24 + ...). Outputs at a
-// sync contain the state between the two halves. At other times they contain the flight, whose
-// velocity is that of the middle between two syncs.
+// sync contain the state between the two half kicks. At other times they contain the velocity in
+// flight, which is right for the middle between two syncs.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -31,8 +31,8 @@ inline constexpr std::array words_of<FieldKind>{
 namespace {
 
 constexpr std::size_t most_values = std::size_t{1} << 18, most_strengths = 4096;
-/// Values of w t at the strongest curvature: the largest one by default, the largest one without a
-/// warning, and the limit, beyond which orbits differ completely from the true ones.
+/// Limits of w t (see above) at the strongest curvature: by default, without a warning, and at all;
+/// beyond the last one, orbits differ completely from the true ones.
 constexpr double usual_turn = 0.05, large_turn = 0.5, largest_turn = 1;
 
 class FieldAtSyncs final : public SyncEffect {
@@ -74,7 +74,7 @@ Need field_kinds(std::string text, FieldKinds kinds) {
             }};
 }
 
-/// Stores the values of the rows, or none if a row is wrong, which is reported elsewhere.
+/// Stores the values of the rows, or none if a row is wrong, which the checks of rows report.
 void take_rows_of_field(FieldValues& values, const Values& rows) {
     values = {};
     for (const Value& row : rows) {
@@ -238,7 +238,7 @@ std::vector<Rule> rules_of_field() {
     };
 }
 
-/// The product w t at the strongest curvature, for the lightest disc.
+/// The product w t (see the top of this file) of the lightest disc at the strongest curvature.
 double turn_between_syncs(const SceneParameters& scene) {
     const ExternalField& field = scene.effects.field;
     double lightest = scene.effects.species.empty() ? 1 : scene.effects.species.front().mass;

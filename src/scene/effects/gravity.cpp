@@ -17,7 +17,7 @@ namespace carrom {
 
 namespace {
 
-/// The least number of syncs in a period.
+/// The least number of syncs in a period of gravity that changes.
 constexpr double least_syncs = 8;
 
 const Need swaying{"without 'effects.gravity.amplitude_x' or 'effects.gravity.amplitude_y'",
@@ -53,7 +53,7 @@ std::vector<Key> keys_of_gravity() {
     };
 }
 
-/// Whether contacts with a surface take energy from discs of any species.
+/// Whether contacts with a surface take energy from the discs of at least one species.
 bool does_take_energy(const Effects& e, std::size_t surface) {
     const auto takes = [](const SurfaceNumbers& numbers) {
         return numbers.is_lossy() || std::fabs(numbers.surface.tangential_restitution) < 1;
@@ -64,8 +64,8 @@ bool does_take_energy(const Effects& e, std::size_t surface) {
            });
 }
 
-/// Whether discs that gravity drives along periodic sides reach a steady flow. For this, something
-/// must take their momentum along the sides `low` and `low + 1`, and something must take energy.
+/// Whether discs that gravity drives along the sides `low` and `low + 1` reach a steady flow. For
+/// this, something must take their momentum along these sides, and something must take energy.
 /// Obstacles take momentum, because discs collide with them.
 bool are_stopped(const SceneParameters& s, std::size_t low) {
     const Effects& e = s.effects;
@@ -143,10 +143,10 @@ double energy_of_height(const ShownDisc& disc, const Effects& effects, const Box
                             std::fabs(g.y) * height(disc.y, g.y, box.y));
 }
 
-/// Whether a disc under the acceleration `g` falls by more than half the box between two syncs.
+/// Whether a disc under the acceleration `g` falls more than half the longer edge between syncs.
 bool falls_too_far(const SceneParameters& scene, double g) {
     const double time = steps_between_syncs(scene), drag = scene.effects.drag;
-    if (drag * time > longest_drag) return false; // reported elsewhere
+    if (drag * time > longest_drag) return false; // check_times_of_drag reports it
     const double fall = drag > 0 ? dragged_fall(drag, drag_clock(drag, time)) : 0.5 * time * time;
     return std::fabs(g) * fall > 0.5 * scene.box.longest();
 }
@@ -156,8 +156,8 @@ bool sways_too_fast(const SceneParameters& scene) {
     return g.sways() && least_syncs * steps_between_syncs(scene) > g.period;
 }
 
-/// Gives strong gravity more frequent syncs than the default. If even a sync in each micro-step is
-/// not enough, check_fall reports it.
+/// Makes syncs more frequent than the default if gravity is strong or changes fast. If even a sync
+/// in each micro-step is not enough, check_fall or check_period reports it.
 void shorten_sync(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const Acceleration& g = scene.effects.gravity;
@@ -188,8 +188,8 @@ void check_period(const SceneDraft& draft) {
                                                std::ceil(least_syncs / period))));
 }
 
-/// Limits the fall between two syncs. The falling frame must stay near the box, because far away
-/// its coordinates would be coarser than the box's.
+/// Limits the fall between two syncs. The falling frame must stay near the box, because coordinates
+/// in a frame far away would be rounded more coarsely than those in the box.
 void check_fall(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!draft.knows_syncs()) return;
@@ -219,7 +219,7 @@ std::string summary_of_gravity(const Effects& effects) {
     return text;
 }
 
-/// Whether a side has friction, so that its tangential forces are not known beforehand.
+/// Whether discs rub on any side of the box, so that its tangential force depends on contacts.
 bool do_surfaces_rub(const Effects& effects) {
     for (std::size_t side = 0; side < effects.boundaries.size(); ++side)
         if (does_rub(effects, side)) return true;

@@ -70,7 +70,7 @@ void check_growth(const SceneDraft& draft) {
     const double most = std::min({std::sqrt(densest / scene.packing()),
                                   room(scene.box.x, scene.effects.is_periodic_x()),
                                   room(scene.box.y, scene.effects.is_periodic_y())});
-    // Missing room at the start is reported elsewhere
+    // Missing room at the start is reported by check_sizes and check_periodic_box
     if (growth <= most || most < 1) return;
     draft.refuse(
         {"effects.growth.rate"},
@@ -96,7 +96,7 @@ EffectDeclaration growth() {
             },
         .allowance =
             [](const Effects& e) { return CheckAllowance{.surfaces_give_energy = e.growth != 0}; },
-        // Surfaces of two discs approach each other at a constant rate, and so do work.
+        // Surfaces of growing discs move outwards at a constant speed, and so they do work.
         .work_in_collision = [](const Effects& e, double impulse,
                                 double radii) { return impulse * (e.growth * radii); },
         .usual_speed = [](const SceneParameters& s) { return s.radius * s.effects.growth; }};

@@ -6,9 +6,9 @@
 // the mean number of arrivals is n sqrt(kT / (2 pi m)) t l. Arrivals are independent, so their
 // number has a Poisson distribution. The inward velocity has the density v exp(-m v^2 / 2 kT), and
 // the velocity along the side is Maxwell's, as for discs that leave a thermal wall. At the next
-// sync a disc is left out if another disc blocks its place of entry. Otherwise it is placed where
-// it has flown to by then, or at its place of entry if its path is blocked. Arrival is the reverse
-// of departure, so a gas in equilibrium has the activity n.
+// sync an arrival is left out if another disc or an obstacle blocks its entry. Otherwise it is put
+// where it has flown to by then, or at its place of entry if its path is blocked. Arrival is the
+// reverse of departure, so a gas in equilibrium has the activity n.
 //
 // The discs that come in are those that have departed before. Random numbers depend on the seed,
 // the side and the count of syncs.

@@ -4,7 +4,7 @@
 // Every rank gathers all discs, in the order of ids, and computes the same impulses. This takes
 // some 500 bytes for each disc of the run on each rank. The iteration begins from the impulses of
 // the last sync, so checkpoints store them, 32 bytes a contact. While a heap is at rest, its states
-// and impulses repeat bit by bit, and a sync costs one comparison.
+// and impulses repeat bit by bit, and a sync only compares them with those of the last sync.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -23,7 +23,7 @@ namespace carrom {
 
 namespace {
 
-constexpr std::size_t numbers_of_contact = 4; ///< numbers of a contact in a checkpoint
+constexpr std::size_t numbers_of_contact = 4; ///< stored in a checkpoint for each contact
 
 class LastingContacts final : public SyncEffect {
 public:
@@ -171,14 +171,14 @@ double pull_of(const SceneParameters& scene) {
     return std::hypot(scene.effects.gravity.x, scene.effects.gravity.y);
 }
 
-/// The height to which discs at rest bounce between two syncs.
+/// The height of the hop that a disc at rest makes from one sync to the next.
 double hop_of(const SceneParameters& scene) {
     const double time = steps_between_syncs(scene);
     return pull_of(scene) * time * time / 8;
 }
 
-/// Shortens the default time between syncs until discs at rest bounce to at most a hundredth of the
-/// radius.
+/// Shortens the default time between syncs until hops of discs at rest are at most a hundredth of
+/// the smallest radius high.
 void shorten_sync_for_hops(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!has_lasting(scene) || draft.settings.has("time.sync_every")) return;
@@ -190,13 +190,13 @@ void shorten_sync_for_hops(const SceneDraft& draft) {
         scene.sync_every /= 2;
 }
 
-/// Reports it if discs at rest would bounce too high between syncs. Returns false if they would.
+/// Whether hops of discs at rest are at most a twentieth of the smallest radius; reports others.
 bool check_hops(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene);
     if (!(hop_of(scene) > 0.05 * radius)) return true;
-    // gravity.cpp reports discs that fall by half the box between syncs, which is four times this
-    // height. It tests each axis alone, so an oblique fall may be sqrt(2) times as long.
+    // gravity.cpp reports discs that fall by half the longer edge between syncs, and a fall is four
+    // hops. It tests each axis alone, so an oblique fall may be sqrt(2) times as long.
     if (hop_of(scene) > std::numbers::sqrt2 / 8 * scene.box.longest()) return false;
     const double most = std::floor(std::sqrt(0.05 * radius / hop_of(scene)) *
                                    static_cast<double>(scene.sync_every));
@@ -209,8 +209,8 @@ bool check_hops(const SceneDraft& draft) {
     return false;
 }
 
-/// Checks the speed below which contacts last. If too small, discs bounce; if too large, they
-/// search partners far away, and impacts lose their normal velocity.
+/// Checks the speed below which contacts last. If it is too small, discs at rest bounce on; if it
+/// is too large, discs search partners far away, and impacts lose all of their normal velocity.
 void check_speed(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene), time = steps_between_syncs(scene);
@@ -237,7 +237,7 @@ void check_speed(const SceneDraft& draft) {
             speed, fallen, remedy));
 }
 
-/// Reports quantities that need forces at every step, because lasting contacts act only at syncs.
+/// Warns of samples of forces that are not at syncs, because lasting contacts act only at syncs.
 void check_samples_of_forces(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements) return;

@@ -23,7 +23,7 @@ const Need some_obstacles{no_obstacles, has_fixed_bodies};
 /// lose digits.
 constexpr double farthest_centre = 100;
 
-/// Rows [x, y, radius] of circles, or [x, y, radius, from, to].
+/// Rows [x, y, radius] of circles, or [x, y, radius, from, to] of arcs between angles in degrees.
 Key arcs_key() {
     Key key = named_key("effects.obstacles.arcs", "length, degrees",
                         "Circles without thickness, or parts of them, counterclockwise from one "

@@ -122,7 +122,7 @@ CheckAllowance allowance_of_rubbing(const Effects& effects) {
     return allowance;
 }
 
-/// Momentum along an axis changes at sides that are parallel to it, not at those at its ends.
+/// Along a periodic axis, only sides parallel to it and obstacles can change the common motion.
 CommonMotion common_motion_by_surfaces(const Effects& effects, Axis axis) {
     const std::size_t low = axis == Axis::x ? 2 : 0;
     CommonMotion motion;

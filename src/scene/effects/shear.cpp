@@ -66,8 +66,8 @@ std::vector<Rule> rules_of_shear() {
     };
 }
 
-/// Warns that the shear rate and the lost energy determine the temperature of a flow, so that the
-/// initial one has no effect.
+/// Warns that a sheared gas does not stay at `discs.temperature`: a thermostat, or shear and lost
+/// energy, determine the temperature later.
 void warn_of_temperature(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.effects.are_sheared() || !draft.settings.has("discs.temperature")) return;

@@ -19,7 +19,7 @@ namespace carrom {
 
 namespace {
 
-/// The indices of the numbers in a row.
+/// The indices of the numbers in a row of a surface's `contacts`.
 constexpr std::size_t of_species = 0, of_restitution = 1, of_tangential = 2;
 
 std::string table_of_surface(std::size_t surface) {
@@ -73,7 +73,7 @@ std::vector<Key> keys_of_surface_contacts() {
     return all;
 }
 
-/// The missing condition without which a row's friction has no meaning; empty if it has one.
+/// What is missing, so that a row's friction has no meaning; empty if nothing is missing.
 std::string why_smooth(const SceneParameters& scene, std::size_t surface, const Numbers& row) {
     const double common = common_numbers(scene.effects, surface).surface.tangential_restitution;
     return is_given(row, of_tangential) || common != -1 ? "" : "a tangential_restitution above -1";

@@ -46,15 +46,15 @@ namespace {
 /// The number of a radius; radii are numbered in ascending order.
 using SizeNumber = std::uint32_t;
 
-/// The proposals of a round. In a round the numbers of all partners differ by one distance, which
-/// is a random power of two. So pairs of near radii, which exchange easily, and
-/// pairs of far radii, which change more, are proposed equally often on each scale.
+/// The proposals of a round. In a round the numbers of all partners differ by the same distance, a
+/// random power of two, and each power is equally probable. So pairs of near radii, which exchange
+/// easily, and pairs of far radii, which change more, are proposed equally often.
 struct Proposals {
     std::uint64_t seed, sync, round;
     SizeNumber n_sizes = 0, distance = 1, shift = 0;
 
-    /// The probability that a possible pair is proposed. With more pairs, more neighbours would
-    /// count with the larger radius of their pair, so that fewer pairs would fit.
+    /// The probability that a possible pair is proposed. With more proposals, more neighbours would
+    /// count with the larger radius of their own pair, so that fewer pairs would fit.
     static constexpr double share = 0.25;
 
     Proposals(std::uint64_t seed_of_all, std::uint64_t n_syncs, std::uint64_t number, SizeNumber n)
@@ -76,7 +76,7 @@ struct Proposals {
     }
 };
 
-/// The other discs within the search range of each own disc.
+/// The other discs within the search range of each disc of this rank.
 class Neighbours {
 public:
     struct One {
@@ -184,7 +184,7 @@ private:
                                              static_cast<double>(swaps_.until_step);
     }
 
-    /// Whether `kept` gives each disc a number of its own.
+    /// Whether `kept` gives each disc a different number.
     bool are_numbers(std::span<const std::int64_t> kept) const {
         if (kept.size() != n_discs_ + 1) return false;
         std::vector<bool> is_held(n_discs_);
@@ -214,8 +214,8 @@ private:
         });
     }
 
-    /// The lower number of the pair, for each own disc that fits. A number occurs twice if both
-    /// discs of its pair fit.
+    /// The lower number of the pair, for each disc of this rank that fits. A number occurs twice if
+    /// both discs of its pair fit.
     std::vector<SizeNumber> fitting(const Proposals& proposals, const SyncDiscs& at,
                                     const Neighbours& neighbours) const {
         std::vector<SizeNumber> all;
@@ -258,7 +258,7 @@ private:
     double steps_between_;
     BodiesAtRest at_rest_;
     std::optional<SpeciesTable> table_; ///< a copy of the run's table, which shares its memory
-    std::vector<double> radii_;         ///< radii, by number of the radius
+    std::vector<double> radii_;         ///< radii in ascending order, by number
     std::vector<DiscId> holders_;       ///< the disc that has each radius, by number of the radius
     std::vector<SizeNumber> numbers_;   ///< number of the radius, by id of the disc
     std::int64_t n_accepted_ = 0;
@@ -318,8 +318,8 @@ std::vector<Rule> rules_of_swap() {
     };
 }
 
-/// Lists the initial radii of all discs on each rank. Limits their number, because numbers of radii
-/// have 32 bits.
+/// Lists the initial radii of all discs on each rank. Limits the number of discs, because numbers
+/// of radii have 32 bits.
 void check_and_list_radii(const SceneDraft& draft) {
     constexpr std::uint64_t most = std::uint64_t{1} << 31;
     if (!swaps(draft.scene)) return;

@@ -37,7 +37,7 @@ inline constexpr std::array words_of<ThermostatKind>{
 
 namespace {
 
-/// A thermostat with the micro-step as the unit of time, and members for all kinds.
+/// The base class of all thermostats. Its unit of time is the micro-step.
 class ThermostatEffect : public SyncEffect {
 public:
     explicit ThermostatEffect(const SceneParameters& scene)
@@ -52,7 +52,7 @@ protected:
     DiscRandom random_of(const SyncDiscs& at, DiscId id) const {
         return {setting_.seed, Purpose::sync, id, static_cast<std::uint64_t>(at.n_syncs)};
     }
-    /// The root mean square in equilibrium of a velocity component, and of a spin.
+    /// Root mean squares in equilibrium: of a velocity component, and of the spin.
     double thermal_speed(const SizeAndMass& body) const {
         return std::sqrt(setting_.temperature / body.mass);
     }
@@ -149,7 +149,7 @@ public:
     using ThermostatEffect::ThermostatEffect;
 
     void act(const SyncDiscs& at) override {
-        double largest = 0; // the largest velocity, including those of rough discs' surfaces
+        double largest = 0; // the largest velocity component, or speed of a rough disc's surface
         for (std::size_t i = 0; i < at.discs.size(); ++i)
             largest = std::max({largest, std::fabs(at.discs[i].vx), std::fabs(at.discs[i].vy),
                                 std::fabs(speed_of_surface(at, i))});
@@ -176,8 +176,8 @@ public:
             parts[0].add(0.5 * mass * (wx * wx + wy * wy + inertia_ * (turning * turning)));
         });
         const double now = energy[0].value(), blur = 0x1p-48 * largest;
-        // If all discs fly alike, they differ from their mean only by roundings, which must not
-        // become heat.
+        // If all discs fly alike, velocities differ from their mean only by rounding errors, which
+        // must not be scaled up to heat.
         if (!(now > sums[2].value() * blur * blur)) return;
         const double wanted = n * setting_.temperature * (at.spins.empty() ? 1 : 1.5);
         const double factor = std::sqrt(wanted / now);
@@ -277,7 +277,7 @@ std::vector<Rule> rules_of_thermostat() {
              }}};
 }
 
-/// Limits the time between syncs, because after a long one no velocity would be left.
+/// Limits the time between syncs: discs would keep hardly any of their velocity after a longer one.
 void check_times_of_thermostat(const SceneDraft& draft) {
     constexpr double longest = 4;
     const SceneParameters& scene = draft.scene;
@@ -291,7 +291,7 @@ void check_times_of_thermostat(const SceneDraft& draft) {
                              rate, longest, longest / interval));
 }
 
-/// A bath (andersen, langevin) does not change the mean energy if nothing else gives or takes any.
+/// Energy jumps at syncs, except under a bath (andersen, langevin) if nothing else changes energy.
 bool makes_energy_jump(const Effects& effects) {
     const CheckAllowance others = allowance_of(effects);
     return effects.thermostat.is_on() &&
@@ -299,7 +299,7 @@ bool makes_energy_jump(const Effects& effects) {
             others.walls_give_energy || effects.are_sheared());
 }
 
-/// Checks that the speeds which a thermostat gives to discs are valid.
+/// Checks that the thermal speed at mass 1 and the root mean square of a kick are valid speeds.
 void check_room_of_thermostat(const SceneDraft& draft) {
     const Thermostat& t = draft.scene.effects.thermostat;
     const double of_kick = std::sqrt(t.strength * steps_between_syncs(draft.scene));
@@ -327,8 +327,8 @@ std::string summary_of_thermostat(const Effects& effects) {
     return {};
 }
 
-/// The typical speed. Noise brings discs at rest to about the speed that they gain in a flight of a
-/// radius.
+/// A typical speed, per step: the thermal speed, or for kicks about the speed that a disc at rest
+/// gains on a path of one radius.
 double usual_speed_of_thermostat(const SceneParameters& scene) {
     const Thermostat& t = scene.effects.thermostat;
     return std::max(std::sqrt(t.temperature), std::cbrt(t.strength * scene.radius));
