@@ -15,18 +15,21 @@ namespace carrom {
 
 namespace {
 
+/// Below this number of discs of a rank, waking the threads takes longer than a pass on one thread.
+constexpr std::int64_t least_for_threads = 32768;
+
 void check_size(const char* call, std::size_t size, std::uint64_t wanted) {
     if (size != wanted)
         throw InputError(
             {{call, 0, fmt::format("has room for {} numbers; it wants {}", size, wanted)}});
 }
 
-/// Whether a coordinate may be outside of [0, period), or below 0 without a period. One comparison
-/// is enough, because the bits of numbers from 0 on are ordered like the numbers, and the bits of
-/// negative numbers are larger.
-bool may_be_outside(double place, double period) {
-    const double end = period == 0 ? std::numeric_limits<double>::infinity() : period;
-    return std::bit_cast<std::uint64_t>(place) >= std::bit_cast<std::uint64_t>(end);
+/// x and y, in one register: most of the time of `read_positions` is arithmetic.
+using Pair [[gnu::vector_size(16)]] = double;
+using PairOfWords [[gnu::vector_size(16)]] = std::int64_t;
+
+[[gnu::always_inline]] inline Pair place_at(const DiscState& disc, double time) {
+    return Pair{disc.x, disc.y} + Pair{disc.vx, disc.vy} * (time - disc.tau);
 }
 
 /// Not inlined, so that the loop over all discs is short.
@@ -34,35 +37,40 @@ template <class Put>
 [[gnu::noinline]] void put_from_outside(const Frame& frame, const DiscState& stored, double time,
                                         const Put& put) {
     const DiscState disc = frame.in_box(stored, time);
-    put(disc.id, disc.x, disc.y);
+    put(disc.id, Pair{disc.x, disc.y});
 }
 
-/// Calls `put(id, x, y)` for each disc of this rank, on all threads. Only the last call for a disc
-/// counts: one that may have left the box or has departed gets a first call with a wrong position.
+/// Calls `put(id, place)` for each disc of this rank, on all threads if there are many discs. Only
+/// the last call for a disc counts: one that may have left the box or has departed gets a first
+/// call with a wrong position.
 template <class Put> void for_each_place(const Run& run, const Put& put) {
     const DiscSystem& system = run.system();
     const std::span<const DiscState> discs = system.discs();
     const Frame frame = system.frame();
     const double time = system.clock();
     const auto n = static_cast<std::int64_t>(discs.size());
-#pragma omp parallel num_threads(run.n_threads())
+#pragma omp parallel num_threads(run.n_threads()) if (n >= least_for_threads)
     if (frame.is_moving) {
-        const double x_period = frame.periods.x, y_period = frame.periods.y;
-        const double x_moved = frame.x, y_moved = frame.y;
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const Periods& periods = frame.periods;
+        const Pair moved = {frame.x, frame.y}, high = {periods.x == 0 ? infinity : periods.x,
+                                                       periods.y == 0 ? infinity : periods.y};
 #pragma omp for schedule(static)
         for (std::int64_t i = 0; i < n; ++i) {
             const DiscState& disc = discs[static_cast<std::size_t>(i)];
-            const double x = disc.x_at(time) + x_moved, y = disc.y_at(time) + y_moved;
-            put(disc.id, x, y);
-            if (may_be_outside(x, x_period) || may_be_outside(y, y_period) || disc.has_departed())
-                [[unlikely]]
+            const Pair place = place_at(disc, time) + moved;
+            put(disc.id, place);
+            // Inside, places have the sign +, and their differences from the upper side the sign -.
+            const auto signs = std::bit_cast<PairOfWords>(place) |
+                               ~std::bit_cast<PairOfWords>(place - high);
+            if ((signs[0] | signs[1]) < 0 || disc.has_departed()) [[unlikely]]
                 put_from_outside(frame, disc, time, put);
         }
     } else {
 #pragma omp for schedule(static)
         for (std::int64_t i = 0; i < n; ++i) {
             const DiscState& disc = discs[static_cast<std::size_t>(i)];
-            put(disc.id, disc.x_at(time), disc.y_at(time));
+            put(disc.id, place_at(disc, time));
         }
     }
 }
@@ -74,7 +82,7 @@ template <class Put> void for_each_shown(const Run& run, const Put& put) {
     const Frame frame = system.frame();
     const double time = system.clock();
     const auto n = static_cast<std::int64_t>(discs.size());
-#pragma omp parallel for schedule(static) num_threads(run.n_threads())
+#pragma omp parallel for schedule(static) num_threads(run.n_threads()) if (n >= least_for_threads)
     for (std::int64_t i = 0; i < n; ++i) {
         const auto place = static_cast<std::size_t>(i);
         put(frame.in_box(discs[place], time), place);
@@ -86,9 +94,11 @@ template <class Put> void for_each_shown(const Run& run, const Put& put) {
 void Simulation::read_positions(std::span<double> xy) const {
     check_size("read_positions", xy.size(), 2 * scene().n_discs);
     const Origin& origin = live().run().scene().origin;
-    for_each_place(live().run(), [&](DiscId id, double x, double y) {
-        xy[2 * id] = x - origin.x;
-        xy[2 * id + 1] = y - origin.y;
+    const Pair corner = {origin.x, origin.y};
+    for_each_place(live().run(), [&](DiscId id, Pair place) {
+        place -= corner;
+        xy[2 * id] = place[0];
+        xy[2 * id + 1] = place[1];
     });
 }
 

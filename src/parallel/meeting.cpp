@@ -18,6 +18,9 @@ namespace {
 
 /// Delay between a departure and its report, because messages of the last meeting may be late.
 constexpr std::chrono::seconds grace(10);
+/// Time of a wait in which this rank only yields its core. Even the shortest sleep takes longer
+/// than a step of few discs.
+constexpr std::chrono::microseconds alert(200);
 constexpr std::size_t longest_reason = 2000;
 
 /// A rank that has reported its departure, or -1.
@@ -49,6 +52,7 @@ std::string reason_of(int rank, MPI_Comm comm) {
 void wait_unless_departed(MPI_Request& request, MPI_Comm comm, std::string_view call) {
     using Clock = std::chrono::steady_clock;
     int is_done = 0, departed = -1;
+    const Clock::time_point start = Clock::now();
     Clock::time_point noticed;
     auto pause = std::chrono::microseconds(1);
     while (MPI_Test(&request, &is_done, MPI_STATUS_IGNORE) == MPI_SUCCESS && is_done == 0) {
@@ -57,6 +61,10 @@ void wait_unless_departed(MPI_Request& request, MPI_Comm comm, std::string_view 
             noticed = Clock::now();
         } else if (Clock::now() - noticed > grace) {
             report_missing(departed, comm, call);
+        }
+        if (Clock::now() - start < alert) {
+            std::this_thread::yield();
+            continue;
         }
         std::this_thread::sleep_for(pause);
         pause = std::min(2 * pause, std::chrono::microseconds(2000));

@@ -75,14 +75,15 @@ wait_policy() { # VARIABLE=VALUE...: prints the policy of a run
         # Until the program has started, the process is a shell or `env`, with the policy of the
         # tests.
         [ "$(readlink "/proc/$process/exe")" -ef "$CARROM_PROGRAM" ] || { sleep 0.1; continue; }
-        found=$(tr '\0' '\n' <"/proc/$process/environ" | sed -n 's/^OMP_WAIT_POLICY=//p')
+        found=$(tr '\0' '\n' <"/proc/$process/environ" |
+            sed -nE 's/^(OMP_WAIT_POLICY|GOMP_SPINCOUNT)=//p' | sort | paste -sd' ')
         [ -z "$found" ] || break
         sleep 0.1
     done
     wait "$process" || found="an end with code $?"
     echo "$found"
 }
-[ "$(wait_policy A=1)" = passive ] || complain 'threads spin while they wait'
+[ "$(wait_policy A=1)" = '1000 passive' ] || complain 'threads spin for long while they wait'
 [ "$(wait_policy OMP_WAIT_POLICY=active)" = active ] || complain 'the wait policy is not kept'
 export OMP_WAIT_POLICY=passive
 cores=$(nproc)

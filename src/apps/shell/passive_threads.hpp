@@ -8,10 +8,10 @@
 
 namespace carrom {
 
-/// Restarts the program with OMP_WAIT_POLICY=passive, because OpenMP reads this variable when it is
-/// loaded. The new program may use all processors of the old one, although OpenMP may have bound
-/// this thread to one of them. Returns under valgrind, if the user has set OMP_WAIT_POLICY or
-/// GOMP_SPINCOUNT, or if the restart fails. Call it before MPI and threads are started.
+/// Restarts the program with OMP_WAIT_POLICY=passive and GOMP_SPINCOUNT=1000, because OpenMP reads
+/// these variables when it is loaded. The new program may use all processors of the old one,
+/// although OpenMP may have bound this thread to one of them. Returns under valgrind, if the user
+/// has set one of the two, or if the restart fails. Call it before MPI and threads are started.
 void let_threads_sleep(char** arguments);
 
 } // namespace carrom

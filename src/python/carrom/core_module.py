@@ -33,13 +33,15 @@ def load() -> Any:
     """Return the extension.
 
     It is found in the package (wheels hold it), by the variable CARROM_CORE, which names its file,
-    or in `build-python/` of a checkout. Threads of OpenMP that wait are told to sleep, as the
-    program does it, unless `OMP_WAIT_POLICY` says otherwise.
+    or in `build-python/` of a checkout. Threads of OpenMP that wait for more than some 50
+    microseconds sleep, as those of the program do, unless `OMP_WAIT_POLICY` or `GOMP_SPINCOUNT` is
+    set.
 
     Raises:
         MissingPackageError: it is not there, or does not fit this Python
     """
-    os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+    if not {"OMP_WAIT_POLICY", "GOMP_SPINCOUNT"} & os.environ.keys():
+        os.environ.update(OMP_WAIT_POLICY="passive", GOMP_SPINCOUNT="1000")
     core = _imported()
     core.make_errors_by(error_of)
     atexit.register(_end, core)

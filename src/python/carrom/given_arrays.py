@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carrom.disc_arrays import Array
-from carrom.errors import FileError, SceneError
+from carrom.errors import CarromError, FileError, SceneError
 
 if TYPE_CHECKING:
     from carrom import _core
@@ -100,4 +100,9 @@ def agreed(core: _core.Core) -> Iterator[None]:
         match = _OF_A_RANK.fullmatch(found.lines[0])
         if match is None:
             raise
-        raise _KINDS[match[2]](f"{match[3]} (on rank {match[1]})") from error
+        raise of_rank(int(match[1]), match[2], match[3]) from error
+
+
+def of_rank(rank: int, kind: str, text: str) -> Exception:
+    """Return an error of another rank, of the same kind if that is an error of arguments."""
+    return _KINDS.get(kind, CarromError)(f"{text} (on rank {rank})")

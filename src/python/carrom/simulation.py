@@ -24,7 +24,7 @@ from carrom.core_module import load
 from carrom.destinations import refuse_owned
 from carrom.disc_arrays import Array
 from carrom.errors import CarromError
-from carrom.given_arrays import agreed, checked, locked, whole
+from carrom.given_arrays import agreed, checked, locked
 from carrom.guarded import Guarded
 from carrom.held_core import Closable, HeldCore
 from carrom.launching import CarromWarning, ProgressLike
@@ -85,8 +85,6 @@ class Simulation(Closable, Guarded):
             SceneError: the scene or the checkpoint is wrong; the message has all problems
             MissingPackageError: the extension is not there
         """
-        if threads is not None and whole("threads must be a whole number", threads) < 1:
-            raise ValueError(f"threads must be at least 1, not {threads}")
         self._comm = comm
         self._begin(core_of(scene, threads, comm, overrides))
 

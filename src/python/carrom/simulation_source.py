@@ -14,6 +14,7 @@ from carrom.checkpoints import Checkpoint
 from carrom.core_module import load
 from carrom.disc_arrays import Array
 from carrom.errors import CarromError, SceneError
+from carrom.given_arrays import of_rank, whole
 from carrom.held_core import check_place
 from carrom.launching import CarromWarning
 from carrom.scene import (
@@ -89,16 +90,51 @@ def core_of(scene: Any, threads: int | None, comm: Any, overrides: Mapping[str, 
     handle = None if comm is None else handle_of(comm, core)
     in_words: Callable[[str], str] = str
     try:
-        if (path := checkpoint_of(scene)) is not None:
-            made = core.from_checkpoint(path, set_words(overrides), threads or 0, handle)
+        given = _agreed_over(comm, lambda: _checked(scene, threads, overrides))
+        if isinstance(given, str):
+            made = core.from_checkpoint(given, set_words(overrides), threads or 0, handle)
         else:
-            text, is_file, settings, in_words = source_of(scene, overrides)
+            text, is_file, settings, in_words = given
             made = core.new(text, is_file, settings, threads or 0, handle)
     except SceneError as error:
         known, names = flattened(overrides), ("threads", "comm")
         error.put_in_words(lambda line: with_arguments(in_words(line), known, names))
         raise
     return cast("_core.Core", made)
+
+
+def _checked(scene: Any, threads: int | None, overrides: Mapping[str, Any]) -> str | Source:
+    """Return the path of a checkpoint, or a scene, after all checks that need no other rank."""
+    if threads is not None and whole("threads must be a whole number", threads) < 1:
+        raise ValueError(f"threads must be at least 1, not {threads}")
+    path = checkpoint_of(scene)
+    return source_of(scene, overrides) if path is None else path
+
+
+def _agreed_over(comm: Any, check: Callable[[], str | Source]) -> str | Source:
+    """Return what `check` returns, unless it raises on some rank. Collective over `comm`.
+
+    Raises:
+        Exception: that of `check`; on ranks without one, that of the first rank with one
+        SceneError: some ranks begin with a checkpoint and others with a scene
+    """
+    if comm is None:
+        return check()
+    mine: Exception | None = None
+    try:
+        given = check()
+        word = "a checkpoint" if isinstance(given, str) else "a scene"
+    except Exception as error:  # otherwise the other ranks would wait
+        mine, word = error, ""
+    all_words = comm.allgather((word, type(mine).__name__, str(mine)))
+    if mine is not None:
+        raise mine
+    for rank, (other, kind, text) in enumerate(all_words):
+        if not other:
+            raise of_rank(rank, kind, text)
+        if other != word:
+            raise SceneError([f"rank {rank} begins with {other}, and this one with {word}"], 2)
+    return given
 
 
 def _for_this_process(known: Mapping[str, Any]) -> list[str]:
@@ -116,7 +152,7 @@ def _for_this_process(known: Mapping[str, Any]) -> list[str]:
             f"{', '.join(asked)}: a simulation in this process writes no files but those of "
             "sim.checkpoint; carrom.run does",
             CarromWarning,
-            stacklevel=5,
+            stacklevel=8,
         )
     return [] if "time.steps" in known else [f"time.steps={MOST_STEPS}"]
 

@@ -141,6 +141,43 @@ def test_one_wrong_number_of_steps_or_path_is_an_error_of_all_ranks(tmp_path: Pa
         assert lines[9 + rank] == f".: is not a plain file (on rank {rank})"
 
 
+ONE_WRONG_SCENE = f"""
+from mpi4py import MPI
+import carrom
+
+comm = MPI.COMM_WORLD
+scene = {gas(steps=10)!r}
+sim = carrom.Simulation(scene, threads=1, comm=comm)
+sim.checkpoint("c.h5")
+wrong = [(scene, 0), (scene, "2"), (None, 1), ("no = [toml", 1), ({{"box": {{"size": object()}}}}, 1),
+         ("c.h5", 1), (scene | {{"discs": {{"count": 1.5}}}}, 1)]
+for rank in (0, 1):
+    for one, threads in wrong:
+        mine = (one, threads) if comm.rank == rank else (scene, 1)
+        try:
+            carrom.Simulation(mine[0], threads=mine[1], comm=comm)
+        except Exception as error:
+            heard = comm.gather(f"{{type(error).__name__}} {{error}}".splitlines()[0])
+            if comm.rank == 0:
+                print(*heard, sep="|", flush=True)
+        else:
+            raise SystemExit("no error")
+sim.run(10)
+"""
+
+
+def test_one_wrong_scene_is_an_error_of_all_ranks(tmp_path: Path) -> None:
+    lines = [line.split("|") for line in on_two_ranks(ONE_WRONG_SCENE, tmp_path)]
+    assert len(lines) == 14, lines
+    for rank in (0, 1):
+        words = [(line[rank], line[1 - rank]) for line in lines[7 * rank : 7 * rank + 7]]
+        assert words[0][0] == "ValueError threads must be at least 1, not 0"
+        for here, there in words[:4]:
+            assert here in there and there.endswith(f"(on rank {rank})")
+        assert "begins with a checkpoint, and this one with a scene" in words[5][1 - rank]
+        assert "begins with a scene, and this one with a checkpoint" in words[5][rank] or rank
+
+
 ENDS = f"""
 from mpi4py import MPI
 import carrom
