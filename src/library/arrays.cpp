@@ -37,8 +37,8 @@ template <class Put>
     put(disc.id, disc.x, disc.y);
 }
 
-/// Calls `put(id, x, y)` for each disc of this rank, on all threads. Only the last call for a disc
-/// counts: one that may have left the box or has departed gets a first call with a wrong position.
+/// Calls `put(id, x, y)` for each disc of this rank, on all threads. A disc that may be outside the
+/// box or has departed can get two calls; the last one has the right position.
 template <class Put> void for_each_place(const Run& run, const Put& put) {
     const DiscSystem& system = run.system();
     const std::span<const DiscState> discs = system.discs();
