@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records requests to stop, from signal handlers, and defines the exception that stops all ranks.
 //
-// A run normally stops between two steps. If a start or a step lasts longer than the patience after
-// the request, it is abandoned. Ranks get signals at different times, so they must agree before
-// they throw.
+// A run normally stops between two steps. If a start or a step is still running when the patience
+// (`set_stop_patience`) has passed since the request, it is abandoned. Ranks get signals at
+// different times, so they must agree before they throw.
 #pragma once
 
 #include <atomic>
@@ -27,11 +27,11 @@ inline bool is_stop_requested() {
     return stop_request::requested_at.load(std::memory_order_relaxed) != 0;
 }
 
-/// Whether more time than the patience has passed since the request, so that the present step
-/// should be abandoned. Costs one comparison while there is no request.
+/// Whether more time than the patience has passed since the request, so that the present start or
+/// step should be abandoned. Costs one comparison while there is no request.
 inline bool is_stop_overdue() { return is_stop_requested() && stop_request::has_patience_ended(); }
 
-/// Sets the patience: how long a step may take after a request. The default is a second.
+/// Sets the patience: how long a start or a step may take after a request. The default is 1 s.
 void set_stop_patience(double seconds);
 
 /// Thrown on every rank if a start or a step was abandoned because of a request. The simulation's

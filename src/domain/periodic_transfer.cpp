@@ -98,7 +98,7 @@ TransferPlan plan_periodic_migration(const Domains& before, const Domains& domai
                                      const Periods& periods, int n_threads) {
     TransferPlan plan;
     const Axis axis = domains.axis();
-    const auto distance_along = [&](Axis of) { // at most a period, plus `margin`
+    const auto distance_along = [&](Axis of) { // along a periodic axis at most 1 + margin periods
         const double period = periods.along(of);
         return period == 0 ? farthest : std::min(farthest, period) + margin * period;
     };
@@ -119,7 +119,7 @@ TransferPlan plan_periodic_migration(const Domains& before, const Domains& domai
         const double along = periods.place_of(own[i], axis, time);
         const double across = domains.are_cut_across()
                                   ? periods.place_of(own[i], other_axis(axis), time)
-                                  : 0; // any number, because strips are not cut across
+                                  : 0; // has no effect, because strips are not cut across
         if (mine.holds(along, across)) return;
         const int owner = domains.owner(along, across);
         if (owner == rank) return;

@@ -176,7 +176,8 @@ private:
     /// Halo discs that fetch_more_halo has added.
     struct HaloPart {
         TransferPlan plan;
-        std::vector<std::size_t> offsets; ///< where each partner's discs begin in `discs_`; the end
+        /// For each partner, the index in `discs_` of its first disc; then the end of the last ones
+        std::vector<std::size_t> offsets;
     };
 
     template <class Values> void move_along(const TransferPlan& plan, Values& values);
@@ -215,10 +216,10 @@ private:
     NeighbourExchange exchange_;
     CellGrid grid_;
     bool is_sorted_ = false; ///< whether own discs are still in the order of the grid
-    /// Own discs whose image is displaced, and this image
+    /// Own discs with an image other than (0, 0), and this image
     std::vector<std::pair<LocalIndex, Image>> displaced_;
-    bool are_displaced_listed_ = false; ///< whether `displaced_` was filled since the migration
-    bool has_images_ = false; ///< if false, the next migration searches all own discs for images
+    bool are_displaced_listed_ = false; ///< whether `displaced_` is filled since the last migration
+    bool has_images_ = false; ///< if false, the next migration tests the images of all own discs
     TransferPlan halo_plan_;
     /// Neighbours except this rank itself, which is its own neighbour in a periodic box
     std::vector<int> other_partners_;

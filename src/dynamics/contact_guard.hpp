@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Determines which collisions lose no energy, because they are part of a lasting contact.
+// Decides which collisions are guarded: they lose no energy, because they are part of a contact
+// that lasts.
 //
 // Discs that lose energy would undergo infinitely many collisions in a finite time (inelastic
 // collapse: McNamara and Young, Phys. Fluids A 4, 496 (1992)). The TC model of Luding and McNamara,
@@ -16,7 +17,7 @@
 // their energy at syncs, so they are not counted either.
 //
 // Syncs and starts do not count as contacts. A sync resets the last collision of each disc, so the
-// first collision after a sync is guarded only if the partner has collided since that sync.
+// first collision of a disc after a sync is guarded only if its partner has collided since then.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +38,8 @@ CARROM_DEVICE inline double since_collision(const DiscState& disc, double time) 
 
 class ContactGuard {
 public:
-    /// A collision is guarded below this approach since the last one, relative to the sum of radii.
+    /// A collision is guarded if the discs have approached by less than this share of the sum of
+    /// their radii since the last collision of either.
     static constexpr double pair_share = 1e-6;
     /// The same limit for a disc and its mirror image behind a wall or a fixed body.
     static constexpr double wall_share = 1e-4;

@@ -10,8 +10,9 @@ namespace carrom {
 
 namespace {
 
-/// Factor of over-relaxation, which carries forces through a heap in fewer sweeps. With friction,
-/// sweeps with a larger factor do not converge.
+/// A sweep changes each impulse by this factor times the change that its own contact needs
+/// (over-relaxation), so that forces spread through a heap in fewer sweeps. With friction, sweeps
+/// with a larger factor do not converge.
 constexpr double relaxation = 1.3;
 /// Sweeps end when contact velocities change by at most this share of g times the sync interval.
 constexpr double small_change = 0.005;

@@ -66,8 +66,9 @@ public:
     double size_at(double time) const { return bodies_.size_at(time); }
     CARROM_DEVICE double mass_of(const DiscState& disc) const { return bodies_.of(disc).mass; }
 
-    // Speeds that searches allow for: the disc's own speed, and the speed that the disc's image in
-    // the box has at a time.
+    // Squared speeds for which searches reserve distance: of the disc's stored image, and of its
+    // image that is in the box at `time`. If rows of images move, they are upper bounds that also
+    // hold for the images in the next rows.
 
     CARROM_DEVICE double squared_speed(const DiscState& disc) const {
         return space_.squared_speed(disc);

@@ -12,7 +12,8 @@ namespace carrom {
 
 namespace {
 
-/// A flight comes within the wall's amplitude at most twice; more visits allow for rounding.
+/// A search ends after a disc in flight has come closer to the wall's line than the amplitude this
+/// many times. A disc does so at most twice; the limit is higher because of rounding.
 constexpr int most_visits = 8;
 /// A search begins this many periods before the disc comes within the wall's amplitude, and ends
 /// one period and this many later than that.
@@ -86,7 +87,8 @@ struct Oscillation::Flight {
         const auto [slope, bend] = rate_at(s);
         return slope < 0 || (slope == 0 && bend < 0);
     }
-    /// The next time at which the disc is within the amplitude, less the slack, of the wall's line.
+    /// The first time from `s` on at which the disc's distance from the wall's line is at most the
+    /// amplitude minus the slack.
     double entry_after(double s) const {
         const double left = from_line_at(s) - wall.amplitude_ + wall.slack_;
         return left > 0 ? s + fall_delay(left, rate + wall.pull_ * s, wall.pull_) : s;

@@ -5,10 +5,10 @@
 //
 // In the falling frame the distance of the wall to a disc is a parabola minus a sine. The
 // derivative of this distance is monotone between the times at which wall and disc have the same
-// acceleration. These times are known, and there are two in a period. So one bracket finds each
-// extremum, and another bracket finds the first root: no contact is missed, at any speed of the
-// wall. A disc whose distance from the line stays below the amplitude for a whole period meets the
-// wall, so the search covers at most two periods.
+// acceleration. These times are known, and there are at most two in a period. So one bracket finds
+// each extremum, and another bracket finds the first root: no contact is missed, at any speed of
+// the wall. A disc that stays closer to the line than the amplitude for a whole period meets the
+// wall. So each time a disc comes that close, little more than one period is searched.
 //
 // The code uses only + - * / and sqrt in a fixed order, so bits are the same on every machine.
 #pragma once
@@ -41,14 +41,15 @@ public:
     /// Starts an interval: from now on times are relative to `time` since the scene's start.
     void begin_interval(double time);
     WallMotion at(double time) const;
-    /// The acceleration towards the wall of a disc that touches it: the larger of the values at
-    /// `time` and at `later`. It is negative if the wall moves away faster than discs fall.
+    /// The acceleration towards the wall, relative to it, of a disc that touches it: the larger of
+    /// the values at `time` and at `later`. It is negative if the wall accelerates away from discs.
     double pressure_at(double time, double later) const;
 
-    /// The time after `time` until the disc first is at the wall or beyond, and approaches it.
-    /// `distance` is the distance from the line towards the inside at `time`, and `rate` is the
-    /// derivative of `distance`. `from_wall` is the rate relative to the wall itself; if it is
-    /// positive, there is no contact at `time`. Contacts less deep than the slack may be missed.
+    /// The delay from `time` until the disc first is at the wall or beyond it, and approaches it;
+    /// `never` if this does not happen. `distance` is the disc's distance from the wall's line at
+    /// `time`, positive inwards, and `rate` is its derivative. `from_wall` is the derivative of the
+    /// distance from the wall itself; if it is positive, there is no contact at `time`. A contact
+    /// in which the disc would get less than the slack beyond the wall may be missed.
     double contact_delay(double distance, double rate, double from_wall, double time) const;
 
 private:
@@ -58,8 +59,8 @@ private:
     double bend_after(double time) const;
 
     double amplitude_ = 0, period_ = 1, rate_ = 0; ///< rate: angular frequency 2 pi / period
-    double phase_ = 0, turns_ = 0;           ///< phase in turns, at the start and at the last sync
-    double sign_ = 1, pull_ = 0, slack_ = 0; ///< pull: acceleration towards the inside
+    double phase_ = 0, turns_ = 0;           ///< phase in turns, at the scene's start and last sync
+    double sign_ = 1, pull_ = 0, slack_ = 0; ///< pull: acceleration of discs towards the inside
     /// Times, in turns from 0 to 1, at which wall and discs have equal acceleration (see the top)
     double first_bend_ = 0, second_bend_ = 0;
 };

@@ -33,7 +33,7 @@ namespace carrom {
 /// the halo, all sorted into cells.
 struct LocalView {
     Population population;
-    const CellGrid* grid = nullptr; ///< its reach is at least a diameter, and at least local_view's
+    const CellGrid* grid = nullptr; ///< its reach is at least a diameter and that of local_view
     const Domains* domains = nullptr;
     double time = 0;   ///< time since the last sync
     Frame frame;       ///< the frame in which the discs' coordinates are stored
@@ -59,7 +59,7 @@ public:
     /// Removes the images of own discs that local_view has added in a periodic box.
     virtual void forget_images() = 0;
 
-    /// The GPU on which the discs are moved; its name is empty if there is none.
+    /// The GPU that moves the discs of this engine; its name is empty if no GPU is used.
     virtual DeviceFacts device() const { return {}; }
     /// Extra bytes per disc if discs are clustered, compared with a homogeneous gas. Equal on all
     /// ranks.

@@ -77,7 +77,7 @@ double largest_mass(std::span<const DiscState> own, const SpeciesTable* species_
 void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
                     double velocity_unit, const Communicator& communicator, int n_threads,
                     Totals& totals) {
-    double largest = 0; // largest component of a velocity
+    double largest = 0; // largest |vx| or |vy|: per micro-step, and after the reduction per step
 #pragma omp parallel for num_threads(n_threads) schedule(static) reduction(max : largest)
     for (std::size_t i = 0; i < own.size(); ++i)
         largest = std::max({largest, std::fabs(own[i].vx), std::fabs(own[i].vy)});

@@ -35,9 +35,9 @@ struct CellBlock {
     }
 };
 
-/// The estimated work of a cell, as an integer in a unit that the caller chooses.
+/// Estimates the work of a cell from its number of discs, in whole units that the caller chooses.
 struct CellWork {
-    std::uint32_t per_disc = 1, per_pair = 0; ///< work of each disc and of each ordered pair
+    std::uint32_t per_disc = 1, per_pair = 0; ///< work per disc, per ordered pair of its discs
 
     std::uint32_t of(std::uint32_t n_discs) const {
         return n_discs * (per_disc + (n_discs - 1) * per_pair);
@@ -101,7 +101,7 @@ private:
     struct Cut {
         bool is_by_column = false;
         int at = 0;
-        std::size_t middle = 0; ///< the upper part begins with this block number
+        std::size_t middle = 0; ///< number of the first block of the upper part
     };
     /// Decides where to cut a rectangle for the blocks [first, end). Returns false to make the
     /// rectangle one block.
@@ -116,7 +116,7 @@ private:
     std::vector<std::size_t> numbers_; ///< for each block, the index of its share in `shares_`
     std::vector<Node> nodes_;          ///< the first node contains all cells
     std::vector<double> work_;         ///< expected work of each block with its halo, or empty
-    std::vector<double> shares_; ///< work of the blocks without their halos, relative to each other
+    std::vector<double> shares_; ///< wanted work of blocks without halos, relative to each other
 };
 
 } // namespace carrom

@@ -20,13 +20,13 @@ namespace carrom {
 struct EventHistory {
     static constexpr std::uint32_t nobody = 0xfffffffd;
 
-    /// Hash of the disc's events (see HaloRecord). A run of the whole box sets 1 after any event.
+    /// Hash of the disc's events (HaloRecord). If BlockGround::is_alone, it is 1 after any event.
     std::uint64_t history = 0;
     std::uint32_t generation = 0;   ///< generation of the last collision
     std::uint32_t partner = nobody; ///< partner in the last collision
 
-    /// Adds a collision to the hash: its time, the partner's id and the velocities after the
-    /// collision. These determine the position, so the hash need not contain it.
+    /// Adds a collision to the hash: its time, the partner's id, and the disc's velocity and spin
+    /// after it. The position follows from all these, so the hash need not contain it.
     void add(double time, const DiscState& disc, std::uint64_t partner_id, const double* spin,
              SpeedClass speed) {
         const auto mixed = [](double value, std::uint64_t factor) {
@@ -360,17 +360,19 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::vector<EventHistory> past_events_of;
     std::vector<std::uint8_t> is_own;
     std::vector<std::uint8_t> is_hit;     ///< whether a slot's disc has collided in this part
-    std::vector<std::uint32_t> hit_slots; ///< slots of these discs
-    BoxLayout layout;                     ///< for runs of the whole box and for levels of sizes
+    std::vector<std::uint32_t> hit_slots; ///< slots of the discs that have collided
+    /// Slots and cells for runs of the whole box, and for all runs with levels of disc sizes
+    BoxLayout layout;
     std::vector<float> x, y, vx, vy;
     FlightLanes lanes;
     EventQueue queue;
-    std::vector<SlotRange> runs; ///< large enough for all columns; only the first n_runs are valid
+    std::vector<SlotRange> runs; ///< slots to search, by column; only the first n_runs are valid
     std::size_t n_runs = 0;
     std::vector<std::uint32_t> partners,
         others_partners; ///< partners of one disc, and of the disc that it collided with
     std::vector<std::uint32_t> later,
-        /// `later`: partners of a column's discs; `later_ends`: the end of each disc's partners
+        /// `later`: for each disc of a column in turn, its possible partners among the discs after
+        /// it, by slots and columns; `later_ends`: for each disc, where its partners end in `later`
         later_ends;
     CascadeWatch cascade_watch;
     BlockOutcome* outcome = nullptr;

@@ -38,11 +38,12 @@ struct BlockChoice {
     double duration = 0; ///< length of the window in micro-steps
     double reach = 0;
     int halo = 3;          ///< halo depth in reaches
-    double block_side = 0; ///< side of a block, in the scene's unit; the engine rounds it to cells
+    double block_side = 0; ///< side of a block, as a length; the engine rounds it to whole cells
     double own_discs = 1;  ///< number of own discs of a block, without its halo
 };
 
-/// The window of lowest cost up to `longest`; if `wanted` is set, the shorter of these two.
+/// Chooses the window with the lowest estimated cost per micro-step, at most `longest` micro-steps
+/// long. If `wanted` is set, the window is as long as the shorter of `wanted` and `longest`.
 BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
                                 std::optional<double> wanted);
 

@@ -20,7 +20,7 @@ namespace carrom {
 
 namespace {
 
-/// If fewer discs have collided in a commit, threads cost more time than they save.
+/// If a commit gives new states to fewer discs than this, threads cost more time than they save.
 constexpr std::size_t least_hits_for_threads = 4096;
 
 /// The settings from which windows are chosen, equal on all ranks. **Collective.**
@@ -150,8 +150,9 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::migrate() {
     jumped_ = 0;
 }
 
-/// Fetches the halo of every strip, sorts all discs into cells, and cuts the own cells into blocks
-/// that are all marked to run. A single run of the whole box makes its own cells.
+/// Fetches the halo of the own domain, sorts all discs into cells, and cuts the own cells into
+/// blocks that are all marked to run. None of this is done if a single run covers the whole box,
+/// because that run makes its own cells.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
     const PhaseClock::Scope scope(phases_, Phase::redistribute);
     const Box box = dynamics_.box();
@@ -165,9 +166,9 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
         blocks_.front().is_marked = 1;
         return;
     }
-    // If discs are clustered, there are many cells. So the results of the last window are freed
-    // first. Otherwise the peak of memory would be 30 bytes a disc higher, because it would contain
-    // these results and the sums for the cuts.
+    // Clustered discs need many cells, so the results of the last window are freed first. Otherwise
+    // memory would contain these results together with the sums for the cuts, and its peak would be
+    // 30 bytes a disc higher.
     if (mean_crowding_ > 1)
         for (Block& block : blocks_) block.outcome = {};
     discs_.sort_cells(lay_cells(reach()), time_);

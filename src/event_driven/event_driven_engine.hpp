@@ -94,7 +94,8 @@ private:
         bool saw_all = false;       ///< whether the block's last run covered the whole box
         BlockOutcome outcome;
     };
-    /// `fails_later`: an error occurs, perhaps after the first stop, so the window is cut there.
+    /// `fails_later`: a block run ended in a collision cascade, perhaps only after the window's
+    /// first stop. So the window is shortened to end at that stop, and runs again.
     enum class Verdict { exact, repeat, too_fast, fails_later };
     /// Results of the validation of a window, summed over all ranks.
     struct FoundInWindow {
@@ -176,12 +177,13 @@ private:
 
     BlockTuning block_tuning_;
     std::vector<SizeLevel> levels_;
-    double jumped_ = 0; ///< largest shift of the frame since the last migration, across the cuts
+    double jumped_ = 0; ///< sum of bounds of the frame's jumps at syncs since the last migration
     WindowPolicy policy_;
     double first_packing_ = 0;
     double runaway_speed_ = 0; ///< speed that ends the run (runaway.hpp)
     JamWatch jam_watch_;       ///< detects a jam of growing discs
-    /// Largest speed of growing discs at the last sync, or at the run's start if that was later
+    /// If discs grow, their largest speed at the last sync or at the run's start, but at least the
+    /// growth of the largest diameter per micro-step; 0 if discs do not grow
     double first_speed_ = 0;
     /// The density of other discs in each own disc's cell, relative to the mean of the box, summed
     /// over own discs. A homogeneous gas has terms below 1, because discs exclude each other.

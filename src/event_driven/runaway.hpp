@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ends runs whose discs become faster without limit. Surfaces that rub and slide do work on discs.
-// If nothing takes up this energy, discs between two surfaces collide ever more often, and a step
-// with a disc in a wedge may never end.
+// The limit of speeds in runs whose discs may become ever faster. Sliding surfaces, which
+// move along themselves and have friction, do work on discs. If discs do not lose this energy,
+// discs between two surfaces collide ever more often, and a step with a disc in a wedge may never
+// end.
 //
-// A run ends if a disc exceeds 2^17 times the largest usual speed of discs, surfaces, walls and
-// effects at the start. The square root of the largest ratio of masses is a further factor, because
-// it is the ratio of speeds at equal energy. Scenes without sliding surfaces have no limit.
+// A run ends if a window's speed bound exceeds 2^17 times the largest of these speeds: of discs at
+// the run's start, of walls, and the usual speeds of effects. If species have different masses, the
+// limit is higher by the square root of their largest ratio, which is the ratio of speeds at equal
+// energy. Scenes without sliding surfaces have no limit.
 #pragma once
 
 #include "scene/scene_parameters.hpp"

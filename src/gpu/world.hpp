@@ -33,7 +33,7 @@ static_assert(longest_window < no_micro);
 struct NextEvent {
     double time = 0;                       ///< time within its micro-step, 0 to 1
     LocalIndex partner = no_partner;       ///< slot of the other disc, or `wall_index`
-    std::int16_t image_x = 0, image_y = 0; ///< displacement of the other disc's image, in boxes
+    std::int16_t image_x = 0, image_y = 0; ///< added to the other disc's image, in box lengths
     std::uint8_t micro = no_micro;
 };
 
@@ -95,7 +95,7 @@ template <class D> struct World {
     CARROM_DEVICE DeviceStress stress(std::uint32_t thread) const {
         return {stripes[thread % n_stripes], stress_scale};
     }
-    /// The disc in this slot, displaced by `image` in boxes.
+    /// The disc in this slot, with `image` (box lengths along x and y) added to its own image.
     CARROM_DEVICE DiscState displaced(LocalIndex slot, Image image) const {
         DiscState disc = discs[slot];
         if constexpr (D::is_periodic) move_image(disc, image);
@@ -125,8 +125,8 @@ template <class D> struct World {
         return sign * a.image_y < sign * b.image_y;
     }
 
-    /// The first candidate, from micro-step `from` on, between disc k in the state `p` and the disc
-    /// in slot `other`, displaced by `image`.
+    /// The first candidate, from micro-step `from` on, between a disc in the state `p` and the disc
+    /// in slot `other`, to whose own image `image` is added.
     CARROM_DEVICE NextEvent meeting(const DiscState& p, LocalIndex other, Image image,
                                     int from) const {
         const auto contact = D::is_periodic
@@ -159,7 +159,8 @@ template <class D> struct World {
             if (event.partner != no_partner) visit(event);
         });
     }
-    /// Disc k's first candidate from micro-step `from` on; `passes_taken` skips taken discs.
+    /// Disc k's first candidate from micro-step `from` on. If `passes_taken`, partners for which
+    /// `taken` is 1 are skipped.
     CARROM_DEVICE NextEvent first_event(LocalIndex k, int from, bool passes_taken) const {
         NextEvent first = bounce(discs[k], from);
         for_each_meeting(k, from, [&](const NextEvent& event) {

@@ -39,7 +39,8 @@ private:
 std::optional<std::vector<Point>> legacy_positions(const SceneParameters& scene,
                                                    LegacyRandom& random);
 
-/// Disc `id` at `place`, with the next drawn velocity, per step. Call it in the order of ids.
+/// Disc `id` at `place`. Draws its velocity (lengths per step) from `random`, so call it in the
+/// order of ids.
 InputDisc legacy_disc(const SceneParameters& scene, LegacyRandom& random, DiscId id, Point place);
 
 } // namespace carrom

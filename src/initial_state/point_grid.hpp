@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points in square cells at least `reach` wide, so that all points within `reach` of a position lie
-// in its cell or in the eight cells around. The cells are linked lists, so adding a point is O(1).
-// Memory: 4 bytes for each point, and 4 for each cell.
+// A grid of square cells at least `reach` wide, so that all points within `reach` of a position lie
+// in its cell or in the eight cells around. Each cell has a linked list of its points, so adding a
+// point is O(1). Memory: 4 bytes for each point, and 4 for each cell.
 //
 // The grid stores only the points' numbers. The caller keeps the coordinates and decides which
 // points are near. Clearing takes a time proportional to the number of points, not of cells.

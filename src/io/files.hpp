@@ -33,7 +33,8 @@ public:
     using FileError::FileError;
 };
 
-/// Throws FileError (MachineError without free descriptors or memory) with `what` and errno's text.
+/// Throws FileError with `what` and errno's text, or MachineError if the reason is that descriptors
+/// or memory are used up.
 [[noreturn]] void fail_with_errno(const std::string& what);
 
 /// A file descriptor that closes itself.
@@ -74,8 +75,9 @@ void reserve(const std::string& path);
 /// Throws if a rename to `path` would replace a device, a pipe or a folder (not a plain file or a
 /// link), if the path is empty, or if it contains a NUL, at which the system would cut it.
 void refuse_special(const std::string& path);
-/// The folder to which a path leads now. While this object exists, `rename_durably` renames files
-/// below `path` only in this folder, even if something else takes its name. Not thread-safe.
+/// Holds open the folder to which `path` leads at construction. While this object exists,
+/// `rename_durably` renames files below `path` in that folder only, even if something else has
+/// taken its name. Not thread-safe.
 class HeldFolder {
 public:
     explicit HeldFolder(const std::string& path);
@@ -93,8 +95,8 @@ void rename_durably(const std::string& from, const std::string& to);
 /// The end of names of unfinished files.
 inline constexpr std::string_view unfinished_suffix = ".partial";
 
-/// A file that will be renamed when it is complete. Otherwise the destructor removes it, because an
-/// incomplete file is useless and takes space.
+/// A file that will be renamed when it is complete. If it was not renamed and `is_mine`, the
+/// destructor removes it, because an incomplete file is useless and takes space.
 class UnfinishedFile {
 public:
     UnfinishedFile(std::string path, bool is_mine) : path_(std::move(path)), is_mine_(is_mine) {}

@@ -42,12 +42,13 @@ namespace {
 constexpr std::size_t longest_text = std::size_t{1} << 28;
 constexpr unsigned most_links = 64; // a group's header contains up to so many links
 
-/// Collects the two innermost entries of the error stack, which contain the system's text.
+/// Collects the two innermost entries of HDF5's error stack, because these contain the error
+/// message of the operating system.
 herr_t take_text(unsigned number, const H5E_error2_t* error, void* text) {
     auto& all = *static_cast<std::string*>(text);
     if (number < 2 && error->desc != nullptr && *error->desc != '\0')
         all += std::string(all.empty() ? "" : "; ") + error->desc;
-    std::replace(all.begin(), all.end(), '\n', ' '); // HDF5's time of day ends in a line break
+    std::replace(all.begin(), all.end(), '\n', ' '); // HDF5 writes times of day with a line break
     return 0;
 }
 

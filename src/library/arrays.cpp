@@ -40,9 +40,9 @@ template <class Put>
     put(disc.id, Pair{disc.x, disc.y});
 }
 
-/// Calls `put(id, place)` for each disc of this rank, on all threads if there are many discs. Only
-/// the last call for a disc counts: one that may have left the box or has departed gets a first
-/// call with a wrong position.
+/// Calls `put(id, place)` for each disc of this rank, on all threads if there are many discs. In a
+/// moving frame it calls `put` a second time, with the right position, for a disc that may have
+/// crossed a periodic side or has departed. So `put` must overwrite.
 template <class Put> void for_each_place(const Run& run, const Put& put) {
     const DiscSystem& system = run.system();
     const std::span<const DiscState> discs = system.discs();

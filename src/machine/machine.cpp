@@ -32,7 +32,7 @@ namespace carrom {
 namespace {
 
 constexpr int most_threads = 1024;
-/// The largest number of threads for each core without a
+/// The largest number of threads for each core that gives no
 /// warning. Two are usual in trials on small machines.
 constexpr int most_crowded = 2;
 /// Up to two threads give no warning, however few discs a rank has.
@@ -106,8 +106,8 @@ std::uint64_t memory_of_control_group() {
     return least;
 }
 
-/// The stack in bytes of each OpenMP thread, if the environment sets it; else 0. Its format is a
-/// number and B, K, M or G; K if there is no letter.
+/// The stack size in bytes of each OpenMP thread, if the environment sets a usable one; else 0. The
+/// variable is a number with the unit B, K, M or G (powers of 1024); without a unit it is K.
 std::size_t stack_of_threads() {
     for (const char* name : {"OMP_STACKSIZE", "GOMP_STACKSIZE"}) {
         const char* const text = std::getenv(name);
@@ -129,7 +129,7 @@ std::size_t stack_of_threads() {
 /// Threads that wait until all of them have started, or until one has failed to start.
 class WaitingThreads {
 public:
-    /// If `stack` is 0, threads have the system's stack.
+    /// `stack` is the size of each thread's stack in bytes, or 0 for the system's default.
     WaitingThreads(int n, std::size_t stack) {
         pthread_attr_t attributes;
         pthread_attr_init(&attributes);
@@ -218,7 +218,7 @@ void check_threads(int threads, const Communicator& ranks) {
 }
 
 std::string limit_in_the_way() {
-    constexpr rlim_t least_memory = 128 << 20; // Open MPI with two threads takes 105 MiB
+    constexpr rlim_t least_memory = 128 << 20; // address space; Open MPI and 2 threads use 105 MiB
     constexpr rlim_t least_files = 24;         // Open MPI and a run without a folder open 17 files
     const auto limit_of = [](auto kind) {
         rlimit limit{};

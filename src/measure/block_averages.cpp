@@ -298,8 +298,8 @@ Averages BlockAverages::averages() const {
     return result;
 }
 
-/// Uses an asymptotic series (Tricomi and Erdelyi 1951) for n of 64 or more. Smaller n are first
-/// raised to this range by Gamma(n + 1) = n Gamma(n).
+/// Computes Gamma(n + 1/2) / Gamma(n) by an asymptotic series (Tricomi and Erdelyi 1951) for n of
+/// 64 or more. Smaller n are first raised to this range by Gamma(n + 1) = n Gamma(n).
 double gamma_ratio(double n) {
     double factor = 1;
     for (; n < 64; n += 1) factor *= n / (n + 0.5);

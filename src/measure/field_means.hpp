@@ -40,7 +40,8 @@ enum SampleMoment : std::uint8_t {
     n_sample_moments
 };
 
-/// Number of counts and moments of a cell in a block, in the order in which tables store them.
+/// Number of values that tables store for a cell and a block: the number of discs, summed over the
+/// samples, then the field moments (FieldMoment), then the sample moments.
 inline constexpr std::size_t n_block_numbers = 1 + n_field_moments + n_sample_moments;
 using BlockNumbers = std::span<const double, n_block_numbers>;
 using SampleSums = std::span<double, n_sample_moments>;
@@ -51,8 +52,9 @@ void add_sample(const FieldSums& sample, std::size_t cell, SampleSums sums);
 /// Mean kT of a table's cells in a block, weighted by discs; `cells` has BlockNumbers of each cell.
 double common_temperature(std::span<const double> cells);
 
-/// The columns of "profiles" from `count` on; `common`: mean kT of all cells. kT and kinetic stress
-/// are NaN if no sample has two discs, kinetic heat flow if none has three and the flow is steady.
+/// The columns of "profiles" from `count` on; `common` is common_temperature(). kT and the kinetic
+/// stress are NaN if no sample has two discs in the cell. The kinetic heat flow is NaN if no sample
+/// has three, unless the flow changes within the block.
 std::vector<double> fields_of(BlockNumbers cell, double common, double n_samples, double steps,
                               double area);
 

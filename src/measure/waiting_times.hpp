@@ -23,7 +23,8 @@
 
 namespace carrom {
 
-/// Means over the discs of one kind, for one origin and lag.
+/// Means over the discs of one kind, for one origin and lag: the mean squared displacement, F_s,
+/// and the share of discs that have moved less than the overlap distance.
 struct MovedDiscs {
     double squares = 0, scattering = 0, overlap = 0;
 };
@@ -33,7 +34,8 @@ public:
     /// `n_kinds`: number of kinds of discs for which each origin has means.
     explicit WaitingTimes(std::size_t n_kinds = 1) : n_kinds_(n_kinds) {}
 
-    /// Adds the origin at the sample with the number `origin`. `moved` has the means of all kinds.
+    /// Adds the values for the lag with the number `lag` and the origin at sample number `origin`.
+    /// `moved` has one entry for each kind of discs: the means over that kind.
     void add(std::size_t lag, std::uint64_t origin, std::span<const MovedDiscs> moved);
     void keep(KeptNumbers& kept);
     /// One row for each octave and lag, for one kind.
@@ -47,8 +49,8 @@ public:
         double deviation = 0;        ///< difference divided by its error; 0 if the error is unknown
     };
     /// `length` is the lag in samples. The earliest origins lie within a quarter of a lag, so they
-    /// count as one origin. Late origins within two lags also count as one, whose variance is taken
-    /// to be the variance of a single origin.
+    /// count as one origin. Late origins within two lags of each other also count as one, whose
+    /// variance is taken to be the variance of a single origin.
     Comparison compare(std::size_t lag, std::size_t kind, std::uint64_t length,
                        std::uint64_t n_samples) const;
 

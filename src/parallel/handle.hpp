@@ -18,8 +18,8 @@
 
 namespace carrom {
 
-/// Tags in use. Neighbour exchanges get tags from `first_free`
-/// to `last`, and then again from `first_free` on.
+/// Tags of messages. Successive neighbour exchanges get tags from
+/// `first_free` to `last`, and then again from `first_free` on.
 namespace tag {
 inline constexpr int any_to_any = 1;
 inline constexpr int stream = 2;
@@ -48,7 +48,7 @@ struct Communicator::Handle {
 
 using Requests = std::vector<MPI_Request>;
 
-/// Starts sending `bytes` in pieces of at most `max_message`, and nothing if there are no bytes.
+/// Starts sending `bytes` in messages of at most `max_message` bytes; sends none if it is empty.
 /// The bytes must stay unchanged until `wait_for` has returned.
 void start_send(Communicator::Handle& handle, std::span<const std::byte> bytes, int to,
                 int message_tag, Requests& requests);
@@ -66,10 +66,10 @@ void wait_for(Requests& requests);
 void wait_or_abort(MPI_Request& request, const std::string& failure, double patience_seconds,
                    int code);
 
-/// Prints `text`, a caller's mistake in using the library, and aborts all ranks with code 70.
+/// Prints `text`, which describes a wrong use of the library, and aborts all ranks with code 70.
 [[noreturn]] void abort_from_mistake(std::string_view text);
 
-/// From now on an error of MPI in `comm` prints rank and text and aborts all ranks.
+/// From now on an MPI error in `comm` prints this rank and the error's text, and aborts all ranks.
 void abort_on_errors_of(MPI_Comm comm);
 
 /// Calls `act` on successive pieces of at most `limit` bytes.

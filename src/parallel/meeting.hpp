@@ -21,12 +21,13 @@ std::uint64_t hash_of_argument(std::string_view text);
 /// (code 70) after ten seconds. **Collective.**
 void meet(const Communicator& communicator, std::string_view call, std::uint64_t argument = 0);
 
-/// Informs the other ranks that this rank leaves, and waits for them when it is destroyed.
+/// Informs the other ranks that this rank leaves. The destructor waits until they leave, too.
 class Departure {
 public:
     /// `communicator` must outlive this.
     explicit Departure(const Communicator& communicator);
-    /// All ranks must have left, or be about to leave. **Collective.**
+    /// Waits until every other rank has called `leave` or has begun to destroy its own Departure.
+    /// **Collective.**
     ~Departure();
     Departure(const Departure&) = delete;
     Departure& operator=(const Departure&) = delete;
@@ -41,8 +42,8 @@ private:
     std::unique_ptr<Messages> messages_;
 };
 
-/// A communicator of the same ranks with separate messages. After Departure::leave ranks agree on
-/// their end through it, because other ranks may still use the original.
+/// A communicator of the same ranks with separate messages. A rank that has called Departure::leave
+/// agrees with the others through it, because these may still use the original.
 Communicator duplicate_of(const Communicator& communicator);
 
 } // namespace carrom

@@ -36,7 +36,8 @@ double smallest_radius(const SceneParameters& scene) {
 std::string remedy_of(const SceneParameters& scene) {
     if (!may_have_lasting_contacts(scene)) return "a longer effects.contact.contact_time";
     const double radius = smallest_radius(scene);
-    // The advised speed is about 2 g T: acceleration g, longest default time T between syncs.
+    // The advised speed is about 2 g T, with the acceleration g and the longest default time T
+    // between syncs.
     const double pull = std::hypot(scene.effects.acceleration().x, scene.effects.acceleration().y);
     return fmt::format("{} = {:.1g}", lasting_key, 0.5 * std::sqrt(pull * radius));
 }
@@ -121,7 +122,8 @@ std::string HeapWarning::text_on_flow(double per_step) const {
                        scene_.effects.lasting_speed, lasting_key, best);
 }
 
-/// Root mean square speed relative to the discs' mean velocity, weighted by mass, per step.
+/// The root mean square of the discs' speeds relative to their mean velocity, both means weighted
+/// by mass; in lengths per step.
 double HeapWarning::speed_of_passing() const {
     double mass = scene_.effects.species.empty() ? static_cast<double>(scene_.n_discs) : 0;
     for (const Species& one : scene_.effects.species)

@@ -113,7 +113,8 @@ void fill_count(const SceneDraft& draft) {
     }
 }
 
-/// Checks that the scene's precision resolves the smallest radius in a box of this width.
+/// Checks that rounding of positions in the box is small compared with `smallest_radius`. If it is
+/// not, the event-driven method only warns, unless `scene.accuracy` is set.
 void check_width(const SceneDraft& draft, double smallest_radius) {
     SceneParameters& scene = draft.scene;
     const double l = scene.box.longest(), r = smallest_radius;
@@ -280,7 +281,7 @@ void check_generator(const SceneDraft& draft) {
                               "discs.generator = \"compressed\""));
 }
 
-/// Checks the root mean square speed of the lightest discs, which are the fastest in the mean.
+/// Checks the root mean square speed of the lightest discs, which are the fastest on average.
 void check_temperature(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!scene.temperature || *scene.temperature == 0) return;

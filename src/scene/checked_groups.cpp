@@ -64,8 +64,8 @@ private:
                            "packing covers more than {}",
                            group.count, body.radius, area / box.area(), largest_packing);
     }
-    /// Only one group in a region may have a lattice or compressed discs, because these do not
-    /// leave room for other discs. Random discs fill the gaps.
+    /// Of groups whose regions overlap, at most one may have a lattice or compressed discs, because
+    /// only random discs find places among other discs.
     std::string problem_of_rivals(std::size_t k) const {
         if (groups_[k].generator == Generator::random) return {};
         for (std::size_t i = 0; i < k; ++i)

@@ -21,8 +21,9 @@ namespace {
 
 /// Largest number of discs in a part of a list, because a part's memory is freed as a whole.
 constexpr std::size_t discs_in_part = 1 << 16;
-/// Memory for halo discs, per square root of the number of own discs: 32 layers of discs at each of
-/// four sides. Without it all discs would be copied when the halo grows.
+/// Number of halo discs for which memory is reserved, divided by the square root of the number of
+/// own discs: 32 layers of discs at each of four sides. Without this reserve all discs would be
+/// copied when the halo grows.
 constexpr double halo_per_root = 128;
 
 /// Moves the discs into many lists and frees the original list. A caller's argument might otherwise
@@ -39,7 +40,8 @@ std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
     return parts;
 }
 
-/// Makes the state at step 0, and frees inputs meanwhile: both together would be the most memory.
+/// Makes the state at step 0, and frees inputs meanwhile. Otherwise the two together would be the
+/// run's peak of memory.
 StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     const double rate_unit = scene.velocities == VelocityKind::reversed ? -k : k;
@@ -155,7 +157,7 @@ DiscSystem::~DiscSystem() = default;
 void DiscSystem::advance_towards(std::int64_t last_step) {
     if (check_ && step() < last_step)
         advance_checked();
-    else // advances to `last_step`, or to an earlier step that ends after a sync
+    else // runs to `last_step`, or to the first step that ends at or after a sync
         engine_->advance_towards(last_step);
 }
 

@@ -37,16 +37,17 @@ public:
                const Tuning& tuning);
     ~DiscSystem();
 
-    /// Runs at least one step of the scene, up to `last_step` or to an earlier step that ends after
-    /// a sync, where reading the state is fast. **Collective.**
+    /// Runs the scene to `last_step`, or less far, to the first step that ends at or after the next
+    /// sync, because reading the state is fast there. Runs at least one step if
+    /// `last_step` is later than `step()`. **Collective.**
     void advance_towards(std::int64_t last_step);
 
     std::int64_t step() const;
     std::int64_t micro_steps_done() const;
 
-    /// Own discs in no particular order: velocities per micro-step, their own times on the scale of
-    /// `clock()`. They include the discs that have left the box (DiscState::has_departed). Valid
-    /// until the next call of a member function.
+    /// Own discs in no particular order. Velocities are per micro-step, and each disc has a time of
+    /// its own on the scale of `clock()`. Discs that have left the box are included
+    /// (DiscState::has_departed). Valid until the next call of a member function.
     std::span<const DiscState> discs() const;
     /// The side columns (core/side_columns.hpp) of `discs()`, in its order and valid as long as it.
     SideSpans side_columns() const;
@@ -86,7 +87,8 @@ public:
     void log_to(std::vector<Collision>* log);
 
     /// This rank's sums of stress since construction or `begin_stress_sums`; the unit is set by
-    /// `stress_bound()`. They contain all collisions, and flights up to the last sync.
+    /// `stress_bound()`. They contain all collisions. They lack the last flights, which are added
+    /// at some of the syncs (Engine::flight_integral).
     const StressSums& stress_sums() const;
     double stress_bound() const { return stress_bound_; }
     const AveragedSystem& averaged_system() const { return *averaged_system_; }
@@ -95,14 +97,15 @@ public:
     void begin_stress_sums(double bound);
 
     /// From now on the invariants of check_failure.hpp are checked after every step:
-    /// `advance_towards` runs one step at a time, and throws CheckFailure on every rank if one is
-    /// broken. `scene` must outlive the run, and have the default precision and arithmetic.
+    /// `advance_towards` runs one step at a time, and throws CheckFailure on every rank if one of
+    /// them is broken. `scene` must outlive the run, and have the default precision and arithmetic.
     /// **Collective.**
     void check_every_step(const SceneParameters& scene);
 
     /// **Collective.**
     Totals totals() const;
-    /// Only the number, energies and momentum of discs, by a few passes over them. **Collective.**
+    /// Computes only the number, energies and momentum of the discs, in a few passes over them.
+    /// **Collective.**
     Totals energies() const;
 
 private:

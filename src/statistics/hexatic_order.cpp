@@ -14,8 +14,9 @@ namespace carrom {
 
 namespace {
 
-/// A side shorter than this, relative to the distance of its two discs, counts as a corner in which
-/// more than three cells meet, as in a square lattice.
+/// A side of a Voronoi cell that is shorter than this, relative to the distance between the two
+/// discs that it separates, counts as a corner where more than three cells meet, as in a square
+/// lattice.
 constexpr double shortest_side = 1e-9;
 
 /// Discs within this share of the reach are enough to complete most cells.

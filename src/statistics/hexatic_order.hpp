@@ -4,8 +4,8 @@
 // distance and id, so its bits do not depend on ranks and threads.
 //
 // Discs of different radii have cells of the radical tessellation (B. J. Gellatly and J. L. Finney,
-// J. Non-Cryst. Solids 50, 313 (1982)): the side between two discs is the line from which tangents
-// to both are equally long. So a cell contains its disc, and two discs that touch are neighbours.
+// J. Non-Cryst. Solids 50, 313 (1982)): from each point of the side between two discs, tangents to
+// both are equally long. So a cell contains its disc, and two discs that touch are neighbours.
 // Bisectors of the centres would cut through large discs. For equal discs both lines are the same.
 #pragma once
 
@@ -29,7 +29,7 @@ struct BondOrder {
     bool has_cell() const { return n_neighbours >= 0; }
 };
 
-/// The radii of discs of several species, which determine the cells.
+/// The radii of the discs. They affect the cells only if there are several species.
 struct CellSizes {
     const SpeciesTable* species = nullptr; ///< null if all discs have one size
     double largest_radius = 0;             ///< at the scene's start, as in `species`
@@ -46,12 +46,12 @@ private:
 
 /// Fills in `orders` in the order of the view's discs. Walls of `box` bound cells and are not
 /// neighbours. The view must extend by `reach` around each disc whose order is computed. Returns
-/// whether `reach` was enough for all own discs; otherwise their orders are invalid.
+/// whether `reach` was enough for all own discs; otherwise `orders` is invalid.
 bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
                       double reach, int n_threads, std::vector<BondOrder>& orders);
 
-/// Like the function above, but `orders` has only the own discs whose id is a multiple of
-/// `ids_apart`. Uses one thread, because the discs are few.
+/// Like the function above, but `orders` has entries only for own discs whose id is a multiple of
+/// `ids_apart`. Uses one thread, because these discs are few.
 bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
                       double reach, std::uint64_t ids_apart, std::vector<BondOrder>& orders);
 
@@ -65,7 +65,7 @@ struct HexaticSums {
     std::vector<std::uint64_t> neighbours; ///< number of discs by count of neighbours
     std::vector<std::uint64_t> moduli;     ///< number of discs by |psi6|, in bins from 0 to 1
     std::vector<std::uint64_t> pairs;      ///< number of pairs, in bins of distance
-    std::vector<ExactSum> products;        ///< sums over these pairs of Re(psi6_i* psi6_j)
+    std::vector<ExactSum> products;        ///< sums over these pairs of Re(conj(psi6_i) psi6_j)
 };
 
 /// Adds psi6 of these discs to the sums over discs, and no pairs.

@@ -15,8 +15,8 @@
 
 namespace carrom {
 
-/// The largest radius for which cells should be made. Few discs or none are larger. `area` is the
-/// area of the box.
+/// The radius of the largest discs that cells should fit; few discs, if any, are larger. `area` is
+/// the area of the box.
 double usual_radius_of(std::span<const Species> species, double radius, double area);
 
 /// The large discs of a rank and its halo, with copies of their flights in one array.
@@ -40,7 +40,7 @@ private:
     void copy_flight(std::uint32_t place, const CellGrid& grid);
 
     std::vector<LocalIndex> indices_; ///< ascending
-    std::vector<float> lanes_;        ///< x, y, vx, vy in the same order, padded for whole vectors
+    std::vector<float> lanes_;        ///< all x, then all y, vx, vy, each padded to whole vectors
     std::size_t length_ = filter_padding;
 };
 

@@ -46,7 +46,7 @@ bool differ_by_rounding(const Mean& mean, double scatter) {
     return scatter <= rounding * std::fabs(mean.value);
 }
 
-/// A line for the terminal. No error is printed if values differ only by rounding.
+/// A line for the terminal. If values differ only by rounding, it has no standard error.
 std::string line_of(const std::string& name, const Mean& mean, double scatter) {
     if (differ_by_rounding(mean, scatter))
         return fmt::format("{:<20}{:.6g} in each\n", name, mean.value);
@@ -104,7 +104,7 @@ struct Claims {
     double claimed = NAN;       ///< root mean square of the reported errors; NaN if there are none
     double ratio = NAN;         ///< scatter divided by `claimed`
     std::size_t n_changing = 0; ///< number of replicas that are still changing
-    std::size_t n_silent = 0;   ///< number of other replicas without an error, mostly too short
+    std::size_t n_silent = 0;   ///< number of others without an error, mostly because of short runs
 
     bool are_too_small(std::size_t n_replicas) const;
 };

@@ -75,7 +75,7 @@ void check_correlations(const SceneDraft& draft) {
 }
 
 /// cos(2 pi t) to 1e-15, without a function call, so that loops over discs are vectorised. With
-/// std::cos half of the time of a sample would be spent there.
+/// std::cos, these cosines would take half of a sample's time.
 inline double cosine_of_turns(double turns) {
     constexpr double rounds = 0x1.8p52; // adding this number rounds to a whole number
     const double z = std::numbers::pi / 2 * (turns - ((turns + rounds) - rounds)), x = z * z;
@@ -93,9 +93,9 @@ struct Comparison {
     const FollowedStates &now, &before;
     double turns_per_length, overlap_squared;
 
-    /// Adds the moments of `n` discs, at most one run of ids, to `of` in the order of ids. The
-    /// discs begin at index `begin`. All terms are computed before they are added, because loops
-    /// with sums in a fixed order are not vectorised.
+    /// Adds the moments of the `n` discs from index `begin` on, at most `ids_of_run`, to the sums
+    /// of[0] .. of[n_moments - 1], in the order of ids. All terms are computed before they are
+    /// added, because loops with sums in a fixed order are not vectorised.
     void add_to(double* of, std::size_t begin, std::size_t n) const {
         // Not initialised, which saves a tenth of a sample's time.
         std::array<double, ids_of_run> square, product, wave, is_near;
@@ -226,7 +226,7 @@ private:
             add(fmt::format("correlations_waiting_{}", kind + 1), kind);
     }
 
-    /// The number of values of a lag: moments and squared overlap, of each species and of all.
+    /// The number of values of a lag: moments and squared overlap, of each species and all discs.
     std::size_t n_values() const { return (n_moments + 1) * (ends_.size() + 1); }
 
     void keep_states(KeptNumbers& kept, FollowedStates& states) {

@@ -39,8 +39,8 @@ struct Core {
 /// The session of all MPI ranks, which the first call makes and later calls share; or a session of
 /// the ranks of one communicator, given by its Fortran number.
 std::shared_ptr<Session> session_of(std::optional<int> communicator);
-/// Releases the session of all MPI ranks, so that MPI ends with its last simulation. A forked
-/// process does not end MPI, because MPI belongs to the parent.
+/// Releases the session of all MPI ranks, so that MPI ends when no simulation uses the session any
+/// more. If `is_forked`, this process never ends MPI, because MPI belongs to its parent process.
 void end_session(bool is_forked);
 
 /// A new numpy array that owns its numbers.

@@ -32,7 +32,8 @@ std::vector<Rule> rules_of_drag() {
     };
 }
 
-/// Limits the time between syncs, because discs would lose nearly all velocity in a longer one.
+/// Limits the drag rate times the time between syncs, because discs would lose nearly all their
+/// velocity from one sync to the next if this product were larger.
 void check_times_of_drag(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const double interval = steps_between_syncs(scene);
@@ -56,7 +57,7 @@ EffectDeclaration drag() {
         .check_times = check_times_of_drag,
         .summary =
             [](const Effects& e) { return e.drag != 0 ? fmt::format("drag {:g}", e.drag) : ""; },
-        // Under a force this is 1, an upper bound, because the loss depends on each disc's path.
+        // Under a force the upper bound is 1, because the loss then depends on each disc's path.
         .energy_left =
             [](const Effects& e, double time) {
                 return e.acceleration().is_on() ? 1 : std::exp(-2 * e.drag * time);

@@ -149,8 +149,8 @@ comm = MPI.COMM_WORLD
 scene = {gas(steps=10)!r}
 sim = carrom.Simulation(scene, threads=1, comm=comm)
 sim.checkpoint("c.h5")
-wrong = [(scene, 0), (scene, "2"), (None, 1), ("no = [toml", 1), ({{"box": {{"size": object()}}}}, 1),
-         ("c.h5", 1), (scene | {{"discs": {{"count": 1.5}}}}, 1)]
+wrong = [(scene, 0), (scene, "2"), (None, 1), ("no = [toml", 1), ("c.h5", 1),
+         ({{"box": {{"size": object()}}}}, 1), (scene | {{"discs": {{"count": 1.5}}}}, 1)]
 for rank in (0, 1):
     for one, threads in wrong:
         mine = (one, threads) if comm.rank == rank else (scene, 1)
@@ -174,8 +174,8 @@ def test_one_wrong_scene_is_an_error_of_all_ranks(tmp_path: Path) -> None:
         assert words[0][0] == "ValueError threads must be at least 1, not 0"
         for here, there in words[:4]:
             assert here in there and there.endswith(f"(on rank {rank})")
-        assert "begins with a checkpoint, and this one with a scene" in words[5][1 - rank]
-        assert "begins with a scene, and this one with a checkpoint" in words[5][rank] or rank
+        assert "begins with a checkpoint, and this one with a scene" in words[4][1 - rank]
+        assert "begins with a scene, and this one with a checkpoint" in words[4][rank] or rank
 
 
 ENDS = f"""
