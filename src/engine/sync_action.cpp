@@ -12,14 +12,16 @@ namespace carrom {
 
 namespace {
 
-void restore(const SyncEffects& effects, std::span<const std::int64_t> kept) {
+/// Calls `go_on(effect, numbers)` for each effect with the numbers that it kept.
+template <class GoOn>
+void restore(const SyncEffects& effects, std::span<const std::int64_t> kept, const GoOn& go_on) {
     if (kept.empty()) return;
     for (const auto& effect : effects) {
         if (kept.empty()) throw CollectiveError("the state has no numbers of some effect");
         const auto n = static_cast<std::size_t>(kept.front());
         kept = kept.subspan(1);
         if (n > kept.size()) throw CollectiveError("the state has too few numbers of an effect");
-        effect->go_on(kept.first(n));
+        go_on(*effect, kept.first(n));
         kept = kept.subspan(n);
     }
 }
@@ -109,15 +111,23 @@ std::vector<std::int64_t> SyncAction::kept() const {
     return all.size() > effects_.size() ? all : std::vector<std::int64_t>{};
 }
 
-void SyncAction::go_on(std::span<const std::int64_t> kept) { restore(effects_, kept); }
+void SyncAction::go_on(std::span<const std::int64_t> kept) {
+    restore(effects_, kept, [](SyncEffect& effect, std::span<const std::int64_t> numbers) {
+        effect.go_on(numbers);
+    });
+}
 
 ShapeChange* SyncAction::shape() const { return shape_of(effects_); }
 
+/// Only the effect that changes sides gets its numbers: others would need the species first.
 Box SyncAction::box_at(const SceneParameters& scene, std::span<const std::int64_t> kept) {
     const SyncEffects effects = sync_effects_of(scene);
-    restore(effects, kept);
     const ShapeChange* const shape = shape_of(effects);
-    return shape ? shape->box() : scene.box;
+    if (!shape) return scene.box;
+    restore(effects, kept, [](SyncEffect& effect, std::span<const std::int64_t> numbers) {
+        if (effect.shape()) effect.go_on(numbers);
+    });
+    return shape->box();
 }
 
 void SyncAction::follow(SyncDiscs& at, const SyncNotes& notes) const {

@@ -246,9 +246,7 @@ void FrameFile::open_trajectory() {
     }
     if (summary_.steps.empty()) return;
     summary_.boxes = boxes_of_frames(file, summary_.steps.size());
-    summary_.box = summary_.boxes.front();
-    for (const Box& box : summary_.boxes)
-        summary_.box = {std::max(summary_.box.x, box.x), std::max(summary_.box.y, box.y)};
+    summary_.box = summary_.boxes.back();
 }
 
 /// Reads the first row of each segment or of a checkpoint, so that the child process finds damage.

@@ -15,7 +15,7 @@ namespace carrom {
 
 enum class FileKind { checkpoint, trajectory, collisions };
 
-/// The description of a file; its box is large enough for the discs of all frames.
+/// The description of a file; its box is the box of the last frame.
 struct FileSummary : RecordedSystem {
     FileKind kind = FileKind::checkpoint;
     /// Whether the file has checksums of all its bytes, as all files of this version do.

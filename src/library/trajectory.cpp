@@ -132,7 +132,13 @@ const std::vector<std::int64_t>& FrameReader::steps() const {
 std::uint64_t FrameReader::n_discs() const {
     return live_part(state_, "FrameReader").file.summary().n_rows;
 }
-Box FrameReader::box() const { return live_part(state_, "FrameReader").file.summary().box; }
+Box FrameReader::box() const {
+    const FileSummary& summary = live_part(state_, "FrameReader").file.summary();
+    Box largest = summary.box;
+    for (const Box& box : summary.boxes)
+        largest = {std::max(largest.x, box.x), std::max(largest.y, box.y)};
+    return largest;
+}
 std::string FrameReader::state_hash() const {
     return live_part(state_, "FrameReader").file.summary().state_hash;
 }

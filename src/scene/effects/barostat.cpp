@@ -183,9 +183,6 @@ private:
     double size_ = 1;
 };
 
-const Need a_barostat{"without effects.barostat.pressure",
-                      [](const SceneParameters& s) { return has_barostat(s); }};
-
 std::vector<Key> keys_of_barostat() {
     return {
         key("effects.barostat.pressure", "1",
@@ -194,12 +191,11 @@ std::vector<Key> keys_of_barostat() {
             "at syncs. 0: none.",
             [](auto& s) -> auto& { return s.effects.barostat.pressure; })
             .within({0, 1e6}),
-        key("effects.barostat.axes", "1",
+        key("effects.barostat.axes", "",
             "together: the box keeps the ratio of its sides. each: in units of the discs each side "
             "has moves of its own; the box keeps its area, and its sides stay within half and "
             "twice their length. Take it for crystals: a fluid gives no ratio.",
-            [](auto& s) -> auto& { return s.effects.barostat.axes; })
-            .needs(a_barostat),
+            [](auto& s) -> auto& { return s.effects.barostat.axes; }),
         key("effects.barostat.seed", "1", "Seed of the random numbers of the barostat.",
             [](auto& s) -> auto& { return s.effects.barostat.seed; })
             .within({.low = 0})
@@ -227,6 +223,12 @@ std::vector<Rule> rules_of_barostat() {
              [](const SceneParameters& s) {
                  return has_barostat(s) && (!s.effects.are_flights_free() || has_fixed_bodies(s) ||
                                             s.effects.field.is_on());
+             }),
+        rule("effects.barostat.axes = \"each\"", "no effects.barostat.pressure",
+             "nothing moves the sides then; set effects.barostat.pressure",
+             {"effects.barostat.axes"},
+             [](const SceneParameters& s) {
+                 return s.effects.barostat.axes == BarostatAxes::each && !has_barostat(s);
              }),
         rule(constant, "sides that are not all periodic, or sheared",
              "the volume needs a box without sides; make all four sides periodic", keys,
