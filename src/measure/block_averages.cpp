@@ -63,7 +63,7 @@ bool BlockAverages::is_short(const Block& whole, double collisions_per_disc) con
 }
 
 /// Returns the number of steps between samples, at most `steps`. If possible, it is chosen so that
-/// successive samples have all times since the last sync that a step can have.
+/// samples fall, one after the other, on all phases of the sync interval that have steps.
 std::int64_t BlockAverages::between_syncs(std::int64_t steps) const {
     for (std::int64_t less = steps; less > steps / 2; --less)
         if (std::gcd(less * system_.micro_steps, system_.sync_every) ==

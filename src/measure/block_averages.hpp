@@ -75,7 +75,7 @@ private:
     Block block_up_to(std::int64_t step, const MotionSample& sample) const;
     void keep_blocks(KeptNumbers& kept);
     bool lost_discs() const;
-    /// An error in a run that begins with single-step blocks needs `collisions` per disc in pairs.
+    /// If a run begins with single-step blocks, an error needs `collisions` pair collisions a disc.
     template <class Value>
     Estimate estimate(const Block& whole, const Value& value, double collisions = 0) const;
     void fill_pressures(Averages& result, const Block& whole) const;

@@ -4,7 +4,7 @@
 // The mean velocity V of a block comes from the same discs, so it contains part of their thermal
 // motion. So kT from velocities relative to V is too low by D kT / n, where n is the number of
 // discs, summed over all s samples, and D a number of degrees of freedom. D is 1 if samples are
-// independent, and s if all samples are equal. It is usually between, because successive samples
+// independent, and s if all samples are equal. It usually lies between, as successive samples
 // contain the same discs. D follows from the scatter of the cell's velocities V_k at the samples:
 //
 //   sum_k sum_i m (v - V)^2  =  sum_k sum_i m (v - V_k)^2  +  sum_k M_k (V_k - V)^2

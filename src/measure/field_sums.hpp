@@ -138,7 +138,7 @@ public:
     std::vector<std::uint64_t> joined_words(const Communicator& ranks) const;
     /// Adds sums that `joined_words` has returned. Returns false if the number of words is wrong.
     bool add_words(const std::vector<std::uint64_t>& words);
-    /// Adds to cell k the sums of cell `first` + k of `other`.
+    /// Adds to each cell k the sums of cell `first` + k of `other`.
     void add(const FieldSums& other, std::size_t first);
 
     std::uint64_t count(std::size_t cell) const { return counts_[cell]; }

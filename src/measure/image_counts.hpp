@@ -55,7 +55,7 @@ private:
     const Communicator& ranks_;
     Pieces pieces_;
     std::vector<DiscImage> counts_;
-    std::vector<Crossing> crossings_; ///< crossings of this rank's discs, not in any count yet
+    std::vector<Crossing> crossings_; ///< crossings of this rank's discs that `counts_` lacks
 };
 
 } // namespace carrom

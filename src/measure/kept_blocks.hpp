@@ -13,8 +13,8 @@
 namespace carrom {
 
 /// Stores or restores blocks; call it after a measurement's other numbers. Checkpoints of Carrom
-/// 0.2 have no blocks. After a restart from one the curve has no errors, because the blocks lack
-/// the samples before the restart.
+/// 0.2 have no blocks. After a restart from such a checkpoint the curve has no errors, because the
+/// blocks lack the samples before the restart.
 inline void keep_blocks(KeptNumbers& kept, VectorBlocks& blocks) {
     if (kept.is_restored() && kept.is_at_end()) return;
     std::vector<std::int64_t> words = blocks.words();

@@ -47,9 +47,9 @@ public:
             value = static_cast<T>(bits);
         }
     }
-    /// Stores or restores a part of the list, which begins with its length; `keep` is called with
-    /// the list or the part. A part is not a separate list, because copying it would double the
-    /// memory.
+    /// Stores or restores a part of the list, which begins with its length; `keep` stores or
+    /// restores the numbers of the part. A part is not a list of its own, because copying it would
+    /// double the memory.
     template <class Keep> void part(const Keep& keep) {
         std::int64_t size = 0;
         const std::size_t begin = words_.size() + 1;
