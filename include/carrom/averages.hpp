@@ -5,8 +5,8 @@
 // The averages follow from counts of collisions, which are stored with the discs, and from sums
 // over velocities and impulses in fixed point. So they have the same bits for any number of ranks
 // and threads. docs/reference/report.md describes them, docs/understanding/pressure.md explains the
-// pressure. Wall and virial pressure follow from counts (Li, Nishikawa, Hoellmer, Carillo, Maggs,
-// Krauth, J. Chem. Phys. 157, 234111 (2022), equations (13c) and (19a)).
+// pressure. Wall and virial pressure are computed from counts of collisions (Li, Nishikawa,
+// Hoellmer, Carillo, Maggs, Krauth, J. Chem. Phys. 157, 234111 (2022), equations (13c) and (19a)).
 #pragma once
 
 #include <array>
@@ -27,14 +27,14 @@ struct Estimate {
     /// Correlation time in steps. The shortest one that can be measured is half a block.
     double correlation_time = std::numeric_limits<double>::quiet_NaN();
     double independent_samples = std::numeric_limits<double>::quiet_NaN();
-    /// Whether the run has too few blocks or collisions for a reliable error, and so has none.
+    /// Whether there are too few blocks or collisions for a reliable error; `error` is then NaN.
     /// Always false in runs that are planned for less than a million steps.
     bool is_short = false;
-    bool is_conserved = false; ///< whether all blocks agree except for rounding
-    bool is_changing = false;  ///< the run's halves differ too much, it has a trend, or discs left
-    /// Mean of the first block, if the average is changing
+    bool is_conserved = false; ///< whether the means of all blocks agree except for rounding
+    bool is_changing = false;  ///< the run's halves differ too much, a trend remains, or discs left
+    /// Mean over the first block, if the average is changing
     double first = std::numeric_limits<double>::quiet_NaN();
-    /// Mean of the last block, if the average is changing
+    /// Mean over the last block, if the average is changing
     double last = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -51,12 +51,13 @@ struct Averages {
     Estimate collision_frequency; ///< collisions with other discs, per disc and step
     /// Mean time between two collisions of a disc with others, in steps; infinite if there are none
     Estimate mean_free_time;
-    Estimate wall_pressure;   ///< pressure from collisions with walls, (13c)
-    Estimate virial_pressure; ///< pressure from collisions with walls and of pairs, (19a)
+    Estimate wall_pressure;   ///< pressure from collisions with walls, equation (13c)
+    Estimate virial_pressure; ///< pressure from collisions with walls and between discs, (19a)
     Estimate mean_speed;
     Estimate speed_kurtosis; ///< <v^4> / <v^2>^2; 2 N / (N + 1) in equilibrium
     Estimate temperature;    ///< kT of translation, relative to the drift along periodic sides
-    /// Pressure tensor: kinetic part, plus impulse times distance in pair collisions / (time area)
+    /// Pressure tensor: the kinetic part, plus the sum over pair collisions of impulse times
+    /// distance between the centres, divided by time and area
     TensorEstimate pressure_tensor;
     Estimate pressure;        ///< half of the trace of `pressure_tensor`
     Estimate compressibility; ///< compressibility factor Z = P A / (N kT)

@@ -9,7 +9,7 @@ namespace carrom {
 /// Lengths are in the scene's unit, times in steps.
 struct Disc {
     std::uint64_t id = 0;              ///< 0 to N - 1
-    double x = 0, y = 0;               ///< the centre at the present step; SceneFacts has the box
+    double x = 0, y = 0;               ///< position of the centre; SceneFacts has the box's corner
     double vx = 0, vy = 0;             ///< velocity, length per step
     double spin = 0;                   ///< radians per step, counterclockwise; 0 for smooth discs
     std::uint64_t wall_collisions = 0; ///< collisions with walls since the scene's start
@@ -18,12 +18,12 @@ struct Disc {
     friend bool operator==(const Disc&, const Disc&) = default;
 };
 
-/// The numbers of a disc that a run does not change. For growing discs `radius` is the radius at
-/// the scene's start.
+/// Properties of a disc besides its state. For growing discs `radius` is the radius at the scene's
+/// start.
 struct DiscKind {
     double radius = 0;        ///< radius, in the scene's unit
     double mass = 1;          ///< mass in the scene's unit
-    std::int64_t species = 0; ///< number of the species from 0, in the order of ids
+    std::int64_t species = 0; ///< index of the species, from 0, in order of id
 
     friend bool operator==(const DiscKind&, const DiscKind&) = default;
 };

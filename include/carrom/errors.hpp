@@ -2,7 +2,7 @@
 // The exceptions of the library, and the exit codes that belong to them.
 //
 // Every rank throws the same exception, so a program may catch it and continue. A broken invariant,
-// an MPI error or a rank without memory throws nothing, but ends all ranks immediately.
+// an MPI error or a rank that runs out of memory throws nothing, but ends all ranks immediately.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ enum class ExitCode : int {
     success = 0,
     difference = 1,         ///< a comparison found a difference
     bad_input = 2,          ///< a scene, a file to read or an argument is wrong
-    collective_failure = 3, ///< an operation of all ranks failed on at least one of them
+    collective_failure = 3, ///< a collective operation failed on at least one rank
     output_failure = 4,     ///< a file could not be written
     broken_invariant = 70,  ///< an error in the program itself
     stopped = 75            ///< stopped on request before the end
@@ -47,8 +47,9 @@ private:
     std::vector<Problem> problems_;
 };
 
-/// An operation of all ranks failed on some rank. Every rank throws it with the text of the lowest
-/// such rank. `code()` is 2 for a damaged file, 4 for a file that cannot be written, else 3.
+/// A collective operation failed on at least one rank. Every rank throws it with the text of the
+/// lowest rank that failed. `code()` is 2 for a damaged file, 4 for a file that cannot be written,
+/// else 3.
 class CollectiveError : public std::runtime_error {
 public:
     explicit CollectiveError(const std::string& text, ExitCode code = ExitCode::collective_failure)

@@ -14,7 +14,7 @@ struct MeasuredTable {
     std::vector<std::string> remarks; ///< lines that explain the table and its units
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
-    /// Whether each sample adds a row, which is written to the table's file during the run
+    /// Whether each sample adds a row; such rows are written to the table's file during the run
     bool grows = false;
 };
 

@@ -3,7 +3,7 @@
 //
 // Make the session before any other object of the library, and destroy it last. "Collective" in
 // these headers means that every rank of the session makes the same calls in the same order, with
-// equal arguments unless stated otherwise. All calls come from the thread that made the session.
+// equal arguments unless stated otherwise. Make all calls from the thread that made the session.
 #pragma once
 
 #include <functional>
@@ -21,13 +21,13 @@ public:
     /// A session that started MPI also ends it. Throws InputError if MPI has ended, or was started
     /// without MPI_THREAD_FUNNELED. **Collective** over all processes of the program.
     ///
-    /// A session that starts MPI changes the process: a rank without memory ends all ranks with
-    /// code 3, SIGXFSZ is ignored, and HDF5 closes no files at exit, so close yours. A session in a
-    /// running MPI changes none of these. No session sets how OpenMP's threads wait. If other
+    /// A session that starts MPI changes the process: a rank that runs out of memory ends all ranks
+    /// with code 3, SIGXFSZ is ignored, and HDF5 closes no files at exit, so close yours. A session
+    /// in a running MPI changes none of these. No session sets how OpenMP's threads wait. If other
     /// programs use the same cores, set OMP_WAIT_POLICY=passive before the program starts.
     Session();
 
-    /// Makes a session of the ranks of one communicator, which is given by its Fortran number:
+    /// Makes a session from the ranks of a communicator, which is given by its Fortran handle:
     /// `Session session(MPI_Comm_c2f(comm))`. MPI must be running. The communicator is duplicated.
     /// **Collective** over the communicator's ranks.
     explicit Session(int fortran_communicator);
@@ -44,9 +44,9 @@ public:
     /// another MPI library cannot be used.
     static std::string mpi_library();
 
-    /// Throws InputError with the problems of all ranks, in the order of ranks, on every rank if
-    /// any rank has one. So a program can check its own data before a collective call, and no rank
-    /// makes the call alone. **Collective.**
+    /// If any rank has a problem, every rank throws InputError with the problems of all ranks, in
+    /// order of rank. A program can thus check its own data before a collective call, which no rank
+    /// then makes alone. **Collective.**
     void agree_on(const std::vector<Problem>& problems) const;
 
     /// Runs `body` on every rank and returns the largest exit code of all ranks, for main. A rank's

@@ -36,8 +36,8 @@ struct Options {
 /// When `advance_to` writes checkpoints, and how many it keeps.
 struct CheckpointSchedule {
     std::string folder{};         ///< made if it is missing; no other run may write to it
-    std::int64_t every_steps = 0; ///< steps between checkpoints; 0: none by steps
-    double every_minutes = 0;     ///< wall time between checkpoints; 0: none by time
+    std::int64_t every_steps = 0; ///< steps between checkpoints; 0: not triggered by steps
+    double every_minutes = 0;     ///< wall time between checkpoints; 0: not triggered by time
     std::int64_t keep = 2; ///< number of checkpoints to keep; this run's older ones are removed
     bool at_end = true;    ///< whether to write a checkpoint also at the last step, `time.steps`
 };
@@ -52,10 +52,10 @@ public:
     Simulation(const Session& session, const Scene& scene, const Options& options = {});
 
     /// Continues from a checkpoint of this library or of `carrom run`, with the same bits as the
-    /// uninterrupted run. If the place is a folder, the newest complete checkpoint there is used.
-    /// The scene is in the file. `settings` (such as "time.steps=200") override its keys and may
-    /// change the last step and the measurements. Throws CollectiveError (code 2) if the file is
-    /// damaged, InputError if a setting would change the simulated states. **Collective.**
+    /// uninterrupted run. If `path` is a folder, its newest complete checkpoint is used. The
+    /// checkpoint contains the scene. `settings` (such as "time.steps=200") override its keys and
+    /// may change the last step and the measurements. Throws CollectiveError (code 2) if the file
+    /// is damaged, InputError if a setting would change the simulated states. **Collective.**
     static Simulation from_checkpoint(const Session& session, const std::string& path,
                                       const std::vector<std::string>& settings = {},
                                       const Options& options = {});
@@ -67,8 +67,8 @@ public:
 
     const SceneFacts& scene() const; ///< facts of the scene; not collective
     std::int64_t step() const;       ///< steps since the scene's start; not collective
-    /// The sides of the box, which `effects.barostat.axes` can change; without it those of the
-    /// scene. Not collective.
+    /// The present lengths of the box's sides. They are those of the scene unless
+    /// `effects.barostat.axes` changes them. Not collective.
     Box box() const;
 
     /// Simulates to the end of `step`. Throws InputError if `step` is before the present step or
@@ -77,33 +77,32 @@ public:
     void advance(std::int64_t n_steps);                  ///< **Collective.**
     void advance_to_end() { advance_to(scene().steps); } ///< **Collective.**
 
-    /// This rank's discs at the present step, in the order of their ids. All ranks together have
-    /// each disc once. Discs that have left through an open side are included: they rest one radius
-    /// outside. Costs a copy and a sort. Not collective.
+    /// This rank's discs at the present step, in order of id. Each disc is on exactly one rank.
+    /// Discs that have left through an open side are included: they rest one radius outside of that
+    /// side. Costs a copy and a sort. Not collective.
     std::vector<Disc> discs() const;
 
-    /// All discs, in the order of their ids, on rank 0; an empty list on other ranks. Takes 64
-    /// bytes a disc on rank 0. **Collective.**
+    /// All discs in order of id on rank 0, and an empty list on other ranks. Rank 0 needs 64 bytes
+    /// a disc. **Collective.**
     std::vector<Disc> gathered_discs() const;
 
-    /// These functions write numbers of this rank's discs to places given by the ids, and leave the
-    /// places of other discs unchanged. x and y of disc `id` go to places 2 id and 2 id + 1, its
-    /// spin or direction goes to place `id`, its counts of collisions with walls and with discs go
-    /// to places 2 id and 2 id + 1. If an array is too short for all discs of the scene, InputError
-    /// is thrown. Cost: one pass over the discs by all threads. Not collective.
+    /// These functions write data of this rank's discs into arrays indexed by id, and leave the
+    /// elements of other discs unchanged. x and y of disc `id` go to elements 2 id and 2 id + 1,
+    /// its spin or direction goes to element `id`, its counts of collisions with walls and with
+    /// discs go to elements 2 id and 2 id + 1. Throws InputError if an array is too short for all
+    /// discs of the scene. Cost: one pass over the discs by all threads. Not collective.
     void read_positions(std::span<double> xy) const;
     void read_velocities(std::span<double> xy) const; ///< velocities, length per step
-    void read_spins(std::span<double> spins) const;   ///< angular velocities per step
+    void read_spins(std::span<double> spins) const;   ///< angular velocities, radians per step
     /// Angles from the x axis, counterclockwise; 0 unless discs are active.
     void read_directions(std::span<double> angles) const;
     void read_collisions(std::span<std::int64_t> counts) const;
 
-    /// Writes the number of box lengths that disc `id` has moved across periodic sides, along x and
-    /// y, to places 2 id and 2 id + 1; a position plus these lengths has no jumps. Each rank
-    /// writes its share of the ids. Crossings count from the scene's start, or from a checkpoint
-    /// that has no such counts. Writes nothing unless `Options::counts_images` was set and a side
-    /// is periodic. Throws InputError for sheared sides, because their images move.
-    /// **Collective.**
+    /// Writes how many box lengths disc `id` has moved across periodic sides along x and y to
+    /// elements 2 id and 2 id + 1; a position plus these lengths has no jumps. Each rank writes its
+    /// share of the ids. Crossings are counted from the scene's start, or from the checkpoint if it
+    /// has no such counts. Writes nothing unless `Options::counts_images` was set and a side is
+    /// periodic. Throws InputError for sheared sides, because their images move. **Collective.**
     void read_images(std::span<std::int32_t> lengths) const;
 
     /// Radius, mass and species of all discs of the scene, by id. If discs exchange their radii
@@ -133,8 +132,8 @@ public:
     Averages averages() const;
     void restart_averages(); ///< restarts the averages; **Collective.**
 
-    /// The tables of `output.measurements` with all samples so far, equal on all ranks; none before
-    /// the first sample. `advance_to` takes the samples. Not collective.
+    /// The tables of `output.measurements` with all samples so far, equal on all ranks; an empty
+    /// list before the first sample. `advance_to` takes the samples. Not collective.
     std::vector<MeasuredTable> measurements() const;
 
     /// Writes the state to a file, completely or not at all. The folder must exist. Throws

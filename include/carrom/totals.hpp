@@ -8,8 +8,9 @@
 
 namespace carrom {
 
-/// A fingerprint of a whole state: of every disc's id, position, velocity, time and counters. The
-/// order of discs and the numbers of ranks and threads do not affect it; -0 counts as +0.
+/// A fingerprint of a whole state: of each disc's id, position and velocity, the time to which they
+/// belong, and its counters. The order of discs and the numbers of ranks and threads do not affect
+/// it; -0 counts as +0.
 struct StateHash {
     std::uint64_t low = 0, high = 0;
 
@@ -29,18 +30,18 @@ std::string to_string(const StateHash& hash);
 /// are in the scene's units, times in steps; masses are 1 unless the scene gives them.
 struct Totals {
     std::uint64_t n_discs = 0;
-    /// Wall collisions since the scene's start; one that meets two walls in a corner counts once
+    /// Wall collisions since the scene's start; hitting two walls in a corner counts once
     std::uint64_t wall_collisions = 0;
     std::uint64_t pair_collisions = 0; ///< number of collisions of two discs
-    /// Candidates rejected since this object began to step; used in the time-stepped method only
+    /// Collision candidates rejected since this simulation was made; 0 in event-driven runs
     std::uint64_t rejected_candidates = 0;
-    // Energy lost by restitution since this object began to step, in the event-driven method.
+    // Energy lost by restitution since this simulation was made, in the event-driven method.
     // Collisions of discs that have just collided lose none; `guarded_collisions` counts these.
     double energy_taken = 0;
-    std::uint64_t guarded_collisions = 0; ///< number of these collisions, except contacts at rest
-    double energy_spared = 0;             ///< energy that restitution would have taken from these
+    std::uint64_t guarded_collisions = 0; ///< number of these collisions, without contacts at rest
+    double energy_spared = 0;             ///< energy that these would otherwise have lost
     std::uint64_t overlapping_pairs = 0;  ///< pairs that now overlap by more than the tolerance
-    /// Depth of the deepest overlap; 2 r if two discs are in one place
+    /// Depth of the deepest overlap; the sum of both radii if two centres coincide
     double deepest_overlap = 0;
     std::uint64_t touching_pairs = 0; ///< pairs that are now within the tolerance of contact
     /// Touching pairs whose speed of approach is zero to within rounding
@@ -48,7 +49,7 @@ struct Totals {
     std::uint64_t chained_discs = 0; ///< discs that touch at least two others
     double kinetic_energy = 0;       ///< kinetic energy of translation, without rotation
     double rotational_energy = 0;    ///< energy of rotation of rough discs
-    /// Potential energy; gravity's part is 0 where the walls towards which it pulls are at step 0
+    /// Potential energy; for gravity, heights are measured from the walls' positions at step 0
     double potential_energy = 0;
     double momentum_x = 0, momentum_y = 0;
     std::array<std::uint64_t, 4> departed{}; ///< number of discs that left through each open side:

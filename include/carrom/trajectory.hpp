@@ -68,14 +68,15 @@ public:
     FrameReader(FrameReader&&) noexcept;
     ~FrameReader();
 
-    const std::vector<std::int64_t>& steps() const; ///< steps of the frames, in their order
+    const std::vector<std::int64_t>& steps() const; ///< step of each frame, in the order of frames
     std::uint64_t n_discs() const;
-    Box box() const;                ///< a box that holds the discs of all frames
+    Box box() const;                ///< largest width and height of the boxes of all frames
     std::string state_hash() const; ///< hash of a checkpoint's state; empty for a trajectory
 
-    /// The discs of a frame, by id: all of them, or ids `begin` to `end` - 1. Positions are in the
-    /// scene's coordinates (`box.origin`). Numbers that the file lacks are 0. `frame` counts from
-    /// 0. Throws InputError if there is no such frame or disc, or if reading fails. Not collective.
+    /// The discs of a frame in order of id: all of them, or ids `begin` to `end` - 1. Positions are
+    /// in the scene's coordinates (`box.origin`). Numbers that the file lacks are 0. `frame` counts
+    /// from 0. Throws InputError if there is no such frame or disc, or if reading fails. Not
+    /// collective.
     std::vector<Disc> read(std::size_t frame) const;
     std::vector<Disc> read(std::size_t frame, std::uint64_t begin, std::uint64_t end) const;
 

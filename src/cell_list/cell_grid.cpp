@@ -20,8 +20,8 @@ constexpr double least_spacings = 1.15;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Resizes with little spare memory. The number of cells changes from window to window. So the
-/// memory of the largest number is freed, and a slight increase does not double the memory. The old
+/// Resizes with little spare memory, because the number of cells changes from window to window.
+/// Memory far above the need is freed, and a slight increase does not double the memory. The old
 /// contents may be lost.
 template <class Numbers> void resize_close(Numbers& numbers, std::size_t size) {
     if (numbers.capacity() < size || numbers.capacity() > size + size / 2) {
@@ -49,8 +49,8 @@ struct StoredPlaces {
     static double vx_of(const DiscState& disc) { return disc.vx; }
 };
 
-/// Positions of images in a periodic box without shear. This is a separate type, so that such boxes
-/// do not pay for moving images.
+/// Positions of images in a periodic box without shear. A separate type, so that its functions need
+/// no test for moving images.
 struct PlacesAtRest {
     Periods periods;
 
@@ -79,7 +79,7 @@ template <class Places> struct CellFinder {
     }
 };
 
-/// Calls `work` with the type that computes positions of discs in this kind of box.
+/// Calls `work` with an object that computes positions of discs in this kind of box.
 template <class Work> void with_places(const Periods& periods, Work work) {
     if (periods.are_moving())
         work(periods);
@@ -187,8 +187,8 @@ void CellGrid::sort_columns(SideColumns& columns, Lent order, int n_threads) con
     });
 }
 
-/// Writes the new order into the second lane, and then moves the discs. One pass is enough, because
-/// nearly all discs move only a little.
+/// Writes the new order into the second lane, and then moves the discs. Usually one pass is enough,
+/// because nearly all discs move only a few places.
 template <class Places>
 void CellGrid::sort(const Places& places, std::span<DiscState> own, int n_threads,
                     const Companions& companions) {
@@ -294,10 +294,11 @@ CellGrid::Cell CellGrid::cell_of(LocalIndex own_index) const {
 }
 
 std::vector<SlotRange> CellGrid::outside(const Inside& inner) const {
-    constexpr double margin = 1e-6; // because cells' ends are rounded
+    constexpr double margin = 1e-6; // because the edges of cells are rounded
     const auto corner = turned(geometry_.axis, geometry_.low, geometry_.across_low);
-    // The range of cells that lie within low .. high, of n cells in a line from `origin`. The first
-    // and the last cell also contain discs from outside of the grid, so finite bounds exclude them.
+    // Returns those of n cells in a line from `origin` that lie within low .. high. The first and
+    // the last cell also contain discs from outside of the grid, so each is left out if the bound
+    // on its side is finite.
     const auto cells_within = [this](double low, double high, double origin, int n) {
         const double from = (low - origin) / geometry_.cell_width + margin,
                      to = (high - origin) / geometry_.cell_width - margin;

@@ -6,9 +6,9 @@
 // Own discs are sorted in memory: the slot of an own disc is its index, so neighbours in space are
 // neighbours in memory. Discs of the halo stay in the order of arrival. They have their own slots,
 // in those columns that contain halo discs. For each slot the grid stores the disc's free flight in
-// single precision, in units of cells and windows, so that nothing can overflow. Flights only serve
-// to reject pairs; a test in double precision decides about the others. Cost: 16 bytes a disc and
-// 4 bytes a cell.
+// single precision, in units of cells and windows, so that nothing can overflow. Flights are only
+// used to reject pairs; a test in double precision decides on the remaining pairs. Cost: 16 bytes
+// per disc and 4 bytes per cell.
 #pragma once
 
 #include <cstdint>
@@ -57,12 +57,13 @@ private:
     }
 };
 
-/// Returns cells over `extent` for pairs within `reach`, at most about `n_discs` cells.
-/// `cell_width` is in units of the reach; 0 chooses it from the density.
+/// Returns a grid that covers `extent`, for searches of pairs within `reach`, with at most about
+/// `n_discs` cells. `cell_width` is in units of the reach; if it is 0, the width is chosen from the
+/// density of discs.
 GridGeometry make_geometry(const Extent& extent, Axis axis, double reach, std::size_t n_discs,
                            double cell_width);
 
-/// Returns at most about half as many cells as discs, for rare searches. Such a grid takes less
+/// Returns a grid with at most about half as many cells as discs, for rare searches. It takes less
 /// memory, but a search tests more pairs.
 GridGeometry make_sparse_geometry(const Extent& extent, Axis axis, double reach,
                                   std::size_t n_discs);
@@ -98,21 +99,20 @@ struct Companions {
 class CellGrid {
 public:
     /// Sorts `own` by cells at the time `anchor`. Flights begin at `time` and last for `duration`.
-    /// In a periodic box the position of the disc's image in the box is used. The grid then has no
-    /// halo until add_halo is called.
+    /// In a periodic box the cell of a disc contains the position of its image. The grid then has
+    /// no halo until add_halo is called.
     void sort(std::span<DiscState> own, const GridGeometry& geometry, double anchor, double time,
               double duration, int n_threads, const Periods& periods = {},
               const Companions& companions = {});
-    /// Sorts into cells by the positions at `time`, without flights. Then `lanes()` is empty, and
-    /// filters of flights must not be called.
+    /// Sorts `own` into cells by the positions at `time`, without computing flights. `lanes()` is
+    /// then empty, so filters of flights must not be called.
     void sort_cells(std::span<DiscState> own, const GridGeometry& geometry, double time,
                     int n_threads, const Periods& periods = {}, const Companions& companions = {});
     /// Sorts the halo's discs, which follow the own ones in memory, into cells.
     void add_halo(std::span<const DiscState> halo, int n_threads = 1);
 
-    /// Removes flights of discs faster than `speed`, in lengths per unit of time, from the lanes,
-    /// so that no search finds these discs. They are listed in `apart()` until discs are sorted
-    /// again.
+    /// Removes flights of discs faster than `speed`, in lengths per micro-step, from the lanes, so
+    /// that no search finds these discs. They are listed in `apart()` until discs are sorted again.
     void set_apart(double speed);
     std::span<const LocalIndex> apart() const { return apart_; }
     FlightLanes apart_lanes() const {
@@ -127,7 +127,7 @@ public:
     std::size_t n_own() const { return n_own_; }
     bool has_halo() const { return !halo_.is_empty(); }
 
-    /// Flights of own discs by index; `halo_lanes` are flights of halo discs by slot.
+    /// `lanes` has the flights of own discs by index, and `halo_lanes` those of halo discs by slot.
     FlightLanes lanes() const { return lanes_of(lanes_, lane_length_); }
     FlightLanes halo_lanes() const { return lanes_of(halo_lanes_, halo_.size() + filter_padding); }
     LocalIndex halo_index(std::uint32_t slot) const {
@@ -167,7 +167,7 @@ public:
         return halo_.next_row(column, row, geometry().n_rows);
     }
 
-    /// The cell of an own disc, found by a search. Loops over all discs should loop over cells
+    /// The cell of an own disc, found by a binary search. Code for all discs should loop over cells
     /// instead, because that is faster.
     struct Cell {
         int column = 0, row = 0;
@@ -179,11 +179,11 @@ public:
     std::vector<SlotRange> outside(const Inside& inner) const;
 
     /// Divides the columns into `n_shares` shares with about equally many own discs. Returns the
-    /// first column of each share, and then the number of columns.
+    /// first column of each share; the last element is the number of columns.
     std::vector<std::int64_t> column_shares(int n_shares) const;
 
-    /// Three steps of prefetching for a search around an own disc: its flight, then where the cells
-    /// around it start, then the flights in these cells.
+    /// Three steps of prefetching for a search around an own disc: first its flight, then the first
+    /// slots of the cells around it, then the flights in these cells.
     void prefetch_flight(LocalIndex index) const {
         if (index >= n_own_) return;
         const float* flight = lanes_.data() + index;
@@ -205,7 +205,7 @@ public:
     /// The squared distance, in cells, beyond which two discs cannot touch. It includes a margin
     /// for single precision.
     float touching_squared(double diameter) const;
-    /// `length` in cells, with a margin for single precision.
+    /// `length` in units of cells, enlarged by a margin for single precision.
     float cells_of(double length) const;
 
     bool is_valid(std::size_t n_discs) const;
@@ -264,7 +264,7 @@ private:
 
     std::vector<LocalIndex> apart_;
     std::vector<float> apart_lanes_; ///< x, y, vx, vy of the discs in `apart_`
-    double longest_flight_ = 0;      ///< longest flight of these discs, in cells
+    double longest_flight_ = 0;      ///< longest flight of the discs in `apart_`, in cells
 };
 
 } // namespace carrom

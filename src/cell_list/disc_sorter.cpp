@@ -72,8 +72,9 @@ std::uint32_t DiscSorter::count_rest(const Sorter& mine, std::uint32_t* counts,
     return static_cast<std::uint32_t>(n_discs);
 }
 
-/// Returns a function that assigns the next place of a cell to a disc of the share `home`. It lists
-/// the discs that move to another thread's places or further than the ring buffer reaches.
+/// Returns a function that assigns the next place of a cell to a disc of the share `home`. The
+/// function also lists the discs that move to another thread's share, or further than the ring
+/// buffer reaches.
 auto DiscSorter::place_giver(const Sorter& home, Carrier& carrier, std::uint32_t* counts,
                              SortMemory memory) const {
     const std::size_t first = home.first_disc, n_near = home.end_disc - first, n_passed = n_passed_;

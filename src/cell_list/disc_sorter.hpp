@@ -47,19 +47,22 @@ struct SortMemory {
 
 class DiscSorter {
 public:
-    /// Determines the order of `discs` by `find_cell(disc)`, which is below the number of cells.
-    /// Writes the order to `memory.order()`. Writes the first place of each cell, and the end of
-    /// the last one, to `cell_start`. `n_columns` determines the length of the ring buffer.
+    /// Determines the order of `discs` by cells; `find_cell(disc)` returns the index of a cell.
+    /// Writes the order to `memory.order()`, and the first place of each cell to `cell_start`,
+    /// whose last element becomes the end of the last cell. `n_columns` determines the length of
+    /// the ring buffer.
     template <class CellOf>
     void find_order(std::span<const DiscState> discs, const CellOf& find_cell,
                     std::size_t n_columns, int n_threads, RawVector<std::uint32_t>& cell_start,
                     SortMemory memory);
 
     /// Assigns each disc that moves far to the thread whose share contains its new place. Returns
-    /// false if there are many: the discs are then not nearly sorted, and `rearrange` is faster.
+    /// false if too many discs move far: they are then not nearly sorted, and `rearrange` is
+    /// faster.
     bool share_out_travellers();
-    /// Moves discs to their new places, in ascending order. Calls placed(i) when place i holds its
-    /// disc; from then on the order up to i is no longer needed.
+    /// Moves discs to their new places; each thread fills the places of its share in ascending
+    /// order. Calls placed(i) when place i holds its disc. The order's element i is not read
+    /// afterwards.
     template <class Placed>
     void carry(std::span<DiscState> discs, SortMemory memory, const Placed& placed) {
         set_travellers_aside(discs, memory);
@@ -77,9 +80,9 @@ private:
     };
     /// The data of a thread while it moves discs to the sorted places of its share.
     struct Carrier {
-        DiscStates passed;                ///< ring buffer of the discs overwritten last
+        DiscStates passed;                ///< ring buffer of the last discs that were overwritten
         DiscStates travellers;            ///< discs that move far; copied beforehand
-        std::vector<LocalIndex> arrivals; ///< new places of `travellers`, ascending; an end mark
+        std::vector<LocalIndex> arrivals; ///< sorted new places of `travellers`, then an end mark
         /// New places of the far-moving discs that this thread has found, unsorted
         std::vector<LocalIndex> sent;
     };
@@ -111,7 +114,7 @@ private:
     std::vector<Sorter> sorters_;     ///< one for each thread
     std::vector<Carrier> carriers_;   ///< one for each thread
     std::size_t n_passed_ = 1;        ///< length of the ring buffer, a power of two
-    std::size_t most_travellers_ = 0; ///< limit of far-moving discs in each share
+    std::size_t most_travellers_ = 0; ///< most far-moving discs allowed in a share
     bool are_in_disorder_ = false;    ///< whether too many discs move far
 };
 

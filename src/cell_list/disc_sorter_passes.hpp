@@ -10,8 +10,8 @@
 
 namespace carrom {
 
-/// Prefetches the discs that follow, further ahead than the processor does. Prefetching beyond the
-/// last disc is harmless.
+/// Prefetches discs that follow, further ahead than the processor itself does. Prefetching beyond
+/// the last disc is harmless.
 inline void prefetch(const DiscState& disc) {
     constexpr std::uintptr_t ahead = 32 * sizeof(DiscState);
     __builtin_prefetch(
@@ -68,8 +68,8 @@ void DiscSorter::find_order(std::span<const DiscState> discs, const CellOf& find
                             RawVector<std::uint32_t>& cell_start, SortMemory memory) {
     begin(discs.size(), n_columns, n_threads);
     const auto n_cells = static_cast<std::uint32_t>(cell_start.size() - 1);
-    // A cell's count is first replaced by the place of its next disc. When all discs have places,
-    // this is where the next cell begins.
+    // find_places replaces each count by the place of the next disc of the cell. When all discs
+    // have places, this number is the place where the next cell begins.
     std::uint32_t* const counts = cell_start.data() + 1;
     cell_start.front() = 0;
     share_out(discs, find_cell, n_cells);

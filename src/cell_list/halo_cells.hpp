@@ -15,7 +15,8 @@ namespace carrom {
 
 class HaloCells {
 public:
-    /// Allocates for `n_discs` discs. Several threads may then call `set_cell` at the same time.
+    /// Allocates memory for `n_discs` discs. Several threads may then call `set_cell` at the same
+    /// time.
     void begin(std::size_t n_discs, int n_columns);
     void set_cell(std::size_t disc, int column, int row);
     /// Gives each disc a slot. Discs in the same cell keep the order of the halo.

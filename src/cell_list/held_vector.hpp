@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vector whose lanes are all equal, as a member of a struct. Vectors of SVE have no fixed
-// size and cannot be members, so on SVE machines this type stores the number and spreads it over
-// the lanes at each use. On others it stores the vector, which saves instructions.
+// A SIMD vector whose lanes are all equal, for members of structs. Vectors of SVE have no fixed
+// size and cannot be members, so on SVE machines this type stores the number and copies it to all
+// lanes at each use. On other machines it stores the vector, which saves instructions.
 //
 // This file is compiled once for each instruction set, as are the filters that include it.
 #if defined(CARROM_HELD_VECTOR) == defined(HWY_TARGET_TOGGLE)

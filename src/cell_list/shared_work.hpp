@@ -2,7 +2,7 @@
 // Divides a loop into chunks for several threads. Each thread first works on the chunks of its own
 // share, in order, and then on chunks that other threads have not begun.
 //
-// A thread gets the same share each time if the work is the same, so its data are in its own cache.
+// If a loop is repeated, each thread gets the same share again, so the data are in its own cache.
 // No thread is idle while there is work.
 #pragma once
 

@@ -27,14 +27,14 @@ enum class Invariant : int {
     counters,
     motion,  ///< the disc's velocity and spin have changed only in collisions
     overlap, ///< no pair overlaps, unless the time-stepped method allows it
-    energy,  ///< only effects change the energy of discs that collisions link, and the energy of
-             ///< all discs
+    energy,  ///< only effects change the total energy of discs that collisions link, and
+             ///< that of all discs
 };
 
-/// Thrown on every rank with the same contents; exit code 70. `discs_around`, sorted by id, has the
-/// reported discs, their partners in collisions and the nearest discs, at the start of the failed
-/// step. It is empty if the reported disc does not exist. `spins` (of rough discs, per step) and
-/// `radii` (of discs that exchange radii) have the order of `discs_around`.
+/// Thrown on every rank with the same contents; exit code 70. `discs_around`, sorted by id,
+/// contains the reported discs, their partners in collisions and the nearest discs, at the start of
+/// the failed step. It is empty if the reported disc does not exist. `spins` (of rough discs, per
+/// step) and `radii` (of discs that exchange radii) are in the order of `discs_around`.
 class CheckFailure : public CollectiveError {
 public:
     CheckFailure(const std::string& text, Invariant broken, std::int64_t at_step, DiscId reported,

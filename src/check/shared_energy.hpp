@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// A disc's squared speed, or twice its energy, before and after a step. `allowance` is the most
-/// that effects may have added to this number.
+/// A disc's squared speed, or twice its energy, before and after a step. `allowance` is the largest
+/// change of this number that effects can explain.
 struct SharedEnergy {
     DiscId disc = 0;
     double before = 0, after = 0;
@@ -28,9 +28,10 @@ struct EnergyChange {
     double share = 0, bound = 0;
 };
 
-/// Joins discs that `pairs` link into clusters and returns the one with the worst change; none if
-/// no relative change exceeds 64 2^-53 (rounding) for each disc, collision and reflection. Discs
-/// that are only in `pairs` are ignored. With `may_fall` clusters may lose any amount of energy.
+/// Joins discs that are linked by `pairs` into clusters. Returns the cluster whose relative change
+/// is largest compared with its bound, which is 64 2^-53 (rounding) for each disc, collision and
+/// reflection; none if no cluster exceeds its bound. Discs that are only in `pairs` are ignored.
+/// With `may_fall` clusters may lose any amount of energy.
 std::optional<EnergyChange> worst_energy_change(std::span<const SharedEnergy> discs,
                                                 std::span<const std::pair<DiscId, DiscId>> pairs,
                                                 bool may_fall = false);

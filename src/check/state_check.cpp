@@ -124,7 +124,7 @@ void StateCheck::inspect(const LocalView& now, std::int64_t micro_steps_done, Lo
     record_speeds();
     const std::int64_t last_sync = micro_steps_done_ / scene_.sync_every * scene_.sync_every;
     for (std::size_t i = 0; i < known_.size(); ++i)
-        // The straight flight began at the sync that changed the velocity or returned the disc.
+        // The straight flight began at the sync that changed the velocity or let the disc in.
         if (were_rewritten() || (before_[i].disc.has_departed() && !known_[i].disc.has_departed()))
             known_[i].free_from = std::max(known_[i].free_from, last_sync);
     take_log(log);
@@ -170,7 +170,7 @@ void StateCheck::fail_if_found(const Finding& mine, Log log) {
                        first.rank, std::move(discs), std::move(spins), std::move(radii));
 }
 
-/// The walls at the last check; walls that move at constant speed are where they were at step 0.
+/// The walls at the last check; walls with constant speed are put where they were at step 0.
 Extent StateCheck::walls_before() const {
     Effects effects = effects_;
     for (Boundary& side : effects.boundaries) side.speed = 0;
@@ -218,8 +218,8 @@ Finding StateCheck::first_other_radius(std::span<const DiscState> own,
     return {};
 }
 
-/// Sends every disc to the rank that keeps its record. The finding's `value` is the number of ranks
-/// that own the disc.
+/// Sends every disc to the rank that keeps its record. Finds the first disc that is not owned by
+/// exactly one rank; the finding's `value` is the number of owners.
 Finding StateCheck::take_records(std::span<const DiscState> own, std::span<const double> spins,
                                  std::span<const DiscState> departed, const Frame& frame,
                                  double time) {
@@ -335,8 +335,9 @@ Finding StateCheck::first_overlap(const LocalView& now) const {
     return first;
 }
 
-/// Gets the time of each disc's last collision from the ranks that keep the records, and drops the
-/// pairs whose overlap the time-stepped method allows.
+/// Fetches, from the ranks that keep the records, the time since which each disc has been free.
+/// Drops pairs whose overlap the time-stepped method allows, and returns the remaining pair with
+/// the lowest ids.
 Finding StateCheck::first_unexplained(std::vector<Suspect> suspects) const {
     for (const bool is_first : {true, false}) {
         std::vector<std::vector<Suspect>> out(static_cast<std::size_t>(communicator_.size()));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks the invariants of a run at each step. CheckFailure lists the invariants,
-// docs/understanding/hard-cases.md has the bounds.
+// Checks the invariants of a run at each step. They are listed in check_failure.hpp, and their
+// bounds in docs/understanding/hard-cases.md.
 //
 // The check keeps a record of each disc at the last check, by id, so that a disc can be compared
-// with its earlier state although its owner changes. The log contains the collisions since then.
+// with its earlier state even if its owner changes. The log contains the collisions since then.
 //
 // In the time-stepped method an overlap is allowed if the pair was already closer than a diameter
 // when both discs became free to collide. A disc becomes free after its last micro-step with a
@@ -13,16 +13,17 @@
 // Effects are taken into account. Discs are compared in the box's coordinates. The check computes
 // how discs fall and slow down, allows overlaps of discs of an ideal gas, and allows inelastic
 // collisions to lose energy. Growing discs push each other: the work is the impulse times the speed
-// of the surfaces. The energy from thermal and moving walls is unknown beforehand, so the energy of
-// discs that met such a wall is not checked. Other walls give or take at most the impulse times
-// their largest speed. If an acceleration varies in time, the check uses a frame that falls with
-// the varying part since the last inspection: in this frame that part has no effect, but walls
-// move. Discs that have departed through open sides stay in the record. The log has each departure
-// as a collision with a wall without impulse. So departures and returns by inlets determine whether
-// a disc is in the box. The energy that departing and returning discs carry is unknown, so in such
-// a step neither their energy nor the total energy is checked. Energies include masses and spins.
-// Cost: 256 bytes a disc. In each step every disc is sent to the rank that keeps its record, every
-// collision to the ranks of its discs and to rank 0, and discs that have collided also to rank 0.
+// of the surfaces. The energy from thermal and moving walls is not known beforehand, so the energy
+// of discs that have met such a wall is not checked. Other walls give or take at most the impulse
+// times their largest speed. If an acceleration varies in time, the check uses a frame that falls
+// with the varying part since the last inspection: in this frame that part has no effect, but walls
+// move. Discs that have departed through open sides stay in the record. In the log each departure
+// is a collision with a wall, with zero impulse. So departures and returns by inlets determine
+// whether a disc is in the box. The energy that departing and returning discs carry is unknown, so
+// in such a step neither their energy nor the total energy is checked. Energies include masses and
+// spins. Cost: 256 bytes per disc. In each step every disc is sent to the rank that keeps its
+// record, every collision to the ranks of its discs and to rank 0, and discs that have collided
+// also to rank 0.
 #pragma once
 
 #include <array>
@@ -77,12 +78,12 @@ private:
     struct Known {
         DiscState disc;
         double spin = 0;
-        /// Number of the micro-step from which on the disc has flown straight
+        /// First micro-step of the disc's present straight flight
         std::int64_t free_from = 0;
         std::uint64_t walls = 0, pairs = 0; ///< collisions of the disc since the last inspection
         std::uint64_t departures = 0;       ///< departures since then, which `walls` includes
         double wall_impulse = 0;            ///< total impulse from walls since then
-        double work = 0; ///< energy from growing surfaces since then; a pair's is at the lower id
+        double work = 0; ///< energy from growing surfaces since then; for a pair, at the lower id
         int owner = -1;
     };
     struct Suspect {
@@ -147,7 +148,8 @@ private:
     double work_of_walls(const Known& known) const;
     double work_of_walls() const;
     Extent walls_before() const;
-    /// Share of energy that drag leaves since the last check; `stretch`: micro-steps since then.
+    /// The fraction of its energy that a disc with drag has kept since the last check. `stretch`:
+    /// micro-steps since then.
     double energy_left() const;
     double stretch() const { return static_cast<double>(micro_steps_done_ - micro_steps_before_); }
     double n_syncs_since(std::int64_t micro_step) const {
@@ -172,7 +174,8 @@ private:
     Effects effects_; ///< times in micro-steps
     FixedBodies fixed_bodies_;
     SpeciesTable species_;
-    /// Motion along x and y since the last inspection, from the varying part of the acceleration
+    /// Displacement and velocity along x and y since the last inspection that come from the varying
+    /// part of the acceleration
     std::array<Swayed, 2> swayed_{};
     double total_mass_ = 0, smallest_mass_ = 1;
     /// Largest speed of vibrating walls, and their largest acceleration towards a disc

@@ -49,7 +49,7 @@ Finding StateCheck::find_velocity_change() const {
         const double seam = effects_.periods(scene_.box).speed;
         double wx = disc.vx - (then.vx * left + pull.x * time + swayed_[0].speed);
         const double wy = disc.vy - (then.vy * left + pull.y * time + swayed_[1].speed);
-        if (seam != 0) // the disc crossed the seam: it has its image's velocity
+        if (seam != 0) // a disc that has crossed the seam has its image's velocity
             wx += seam * std::round((then.y + then.vy * time - disc.y) / scene_.box.y);
         const double bound = seam != 0 ? motion_bound *
                                              (std::sqrt(squared_speed_of(then)) + std::fabs(seam))
@@ -90,7 +90,7 @@ Finding StateCheck::first_other_energy(std::span<const DiscState> own, Log log) 
     }
     const Finding of_all = first_other_total(own, mine);
     if (finding.is_found == 0) finding = of_all;
-    // The owner is not known here, because the ranks that keep the records check the energy.
+    // The owner is unknown here, because the ranks that keep the records check the energy.
     if (finding.is_found == 1) finding.rank = -1;
     return finding;
 }
@@ -148,7 +148,7 @@ bool StateCheck::have_any_moved() const {
     return communicator_.any(is_any);
 }
 
-/// Twice a disc's energy before and after the step, and twice what effects may have added to it.
+/// Twice a disc's energy before and after the step, and twice the change that effects can explain.
 SharedEnergy StateCheck::shared_energy_of(std::size_t i) const {
     const Known& known = known_[i];
     SharedEnergy energy = {first_id_ + i,
@@ -296,7 +296,7 @@ double StateCheck::speed_of_walls() const {
     return wall_speed_ + amplitude * std::min(stretch(), g.period / std::numbers::pi);
 }
 
-/// The sum of the work of walls over all discs. **Collective.**
+/// The sum of the work of walls over the discs of all ranks. **Collective.**
 double StateCheck::work_of_walls() const {
     if (speed_of_walls() == 0) return 0;
     double work = 0;

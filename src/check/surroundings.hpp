@@ -19,7 +19,7 @@ struct SceneDisc {
     double spin = 0;
 };
 
-/// Returns about a dozen discs in the order of ids: the finding's discs, the discs that collided
+/// Returns about a dozen discs in order of id: the finding's discs, the discs that collided
 /// with them in `log`, and the nearest discs. `discs` are this rank's share; on rank `keeper` they
 /// include the finding's disc. All ranks get the same list. **Collective.**
 std::vector<SceneDisc> discs_around(const Finding& finding, std::span<const SceneDisc> discs,

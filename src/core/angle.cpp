@@ -17,11 +17,11 @@ double wrapped_angle(double angle) {
     const double rest = angle - turn * std::floor(angle / turn + 0.5);
     return rest > std::numbers::pi    ? std::numbers::pi
            : rest < -std::numbers::pi ? -std::numbers::pi
-                                      : rest; // clamped, because rounding may lead beyond pi
+                                      : rest; // clamped, because the sum may round to beyond pi
 }
 
-/// Uses the Taylor series for a quarter of the angle, whose neglected terms are below 2^-60. The
-/// angle is then doubled twice.
+/// Computes the sine and 1 - cosine of a quarter of the angle by Taylor series, whose neglected
+/// terms are below 2^-60. Formulas for the double angle are then applied twice.
 Direction direction_of(double angle) {
     const double x = angle / 4, square = x * x;
     double of_sine = 1, of_versine = 1; // sin(x) / x, and 2 (1 - cos(x)) / x^2

@@ -10,8 +10,8 @@ namespace carrom {
 /// Maps an angle in radians into [-pi, pi] by adding or subtracting whole turns.
 double wrapped_angle(double angle);
 
-/// Cosine and sine of an angle in [-pi, pi], with absolute errors below 2e-15. It is fifty times as
-/// fast as the correctly rounded `rounded_sine`.
+/// Cosine and sine of an angle in [-pi, pi], with absolute errors below 2e-15. Fifty times as fast
+/// as `rounded_sine`, which rounds correctly.
 Direction direction_of(double angle);
 
 /// A random angle, uniform in [-pi, pi).

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two axes. The strips of ranks follow each other along the box's longer side (x in a square),
-// in sheared boxes along y, and cells are ordered along the same axis. Code for strips and cells
-// uses coordinates along this axis and across it, so it is the same for both axes.
+// The two axes. The strips of ranks follow each other along the longer side of the box (x in a
+// square), but along y in a sheared box. Cells are ordered along the same axis. Code for strips and
+// cells uses coordinates along and across this axis, so the same code serves both axes.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,8 @@ enum class Axis : std::size_t { x = 0, y = 1 };
 
 constexpr Axis other_axis(Axis axis) { return axis == Axis::x ? Axis::y : Axis::x; }
 
-/// The axis of the longer side. Strips follow each other along it, except in sheared boxes.
+/// The axis of the longer side; x in a square. Strips follow each other along it, except in sheared
+/// boxes.
 constexpr Axis longer_axis(const Box& box) { return box.y > box.x ? Axis::y : Axis::x; }
 
 template <class Number>

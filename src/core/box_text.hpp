@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Formats a box in messages: "10" for a square, or "10 x 5". The number format is for both lengths.
+// Formats a box for messages: a square as "10", other boxes as "10 x 5". A format such as {:.3g}
+// applies to both lengths.
 #pragma once
 
 #include <string>

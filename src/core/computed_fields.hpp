@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Values for each disc that trajectories can contain but states do not store, because they are
 // computed from neighbouring discs. Scenes, trajectories and readers of files use the table below.
-// A new field needs a line there, and code in `computed_numbers` (simulation/disc_order.hpp).
+// A new field needs a line in this table, and code in `computed_numbers`
+// (simulation/disc_order.hpp).
 #pragma once
 
 #include <array>

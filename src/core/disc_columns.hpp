@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A disc's stored numbers by name, for files that store each number as a column.
 //
-// Each number of the 64-byte state has one line in the table here, except the id and the image. The
-// flags `is_departed` and `has_collided` are encoded in the column of the time `tau`.
+// The table `disc_columns` has a line for each number of the 64-byte state, except the id and the
+// image. The flags `is_departed` and `has_collided` are encoded in the column of the time `tau`.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@
 
 namespace carrom {
 
-/// A column with one number of 8 bytes for each disc: all are doubles, or all are whole numbers.
+/// A column with one number of 8 bytes for each disc: either all are doubles, or all are integers.
 struct StateColumn {
     const char* name;
     const char* unit;
     bool is_real;
-    /// Writes this number of all `discs` to `out`, one after the other.
+    /// Writes this number of each of the `discs` to `out`, without gaps.
     void (*put)(std::span<const DiscState> discs, std::byte* out);
     void (*set)(DiscState& disc, std::uint64_t bits);
 };
@@ -52,9 +52,9 @@ template <auto Field> constexpr StateColumn make(const char* name, const char* u
 
 inline constexpr std::uint64_t all_of_counter = 0x7fffffffffff;
 
-/// Stored in place of the time of a departed disc.
+/// The stored value of `tau` for a departed disc.
 inline constexpr double departed_time = -1;
-/// Stored in place of the time of a disc that collided exactly at a sync.
+/// The stored value of `tau` for a disc that collided exactly at a sync.
 inline constexpr double collided_at_sync = -0.0;
 inline double stored_time(const DiscState& disc) {
     if (disc.has_departed()) return departed_time;

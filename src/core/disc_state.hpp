@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A disc's stored state: its position at its own time `tau`, its velocity and collision counts.
 //
-// Only collisions and stops of the disc itself, and the sync of all discs, change its motion
+// A state changes only if its disc collides or stops, and at syncs of all discs
 // (docs/understanding/method.md, section 2). A state fills one cache line, because the engine reads
 // states of single discs at random places in memory.
 #pragma once
@@ -24,8 +24,8 @@ using DiscId = std::uint64_t;
 using LocalIndex = std::uint32_t;
 
 /// Lengths are in the scene's unit, velocities in lengths per micro-step, `tau` in micro-steps
-/// since the last sync. Counters have 47 bits, which is enough for four years of a million
-/// collisions of the disc per second.
+/// since the last sync. Counters have 47 bits, which is enough for a disc that collides a million
+/// times a second for four years.
 struct alignas(64) DiscState {
     double x = 0, y = 0;
     double vx = 0, vy = 0;
@@ -35,7 +35,7 @@ struct alignas(64) DiscState {
     std::uint64_t is_departed : 1 = 0; ///< set by depart(), cleared when the disc comes back
     std::int64_t image_x : 16 = 0;     ///< the image's displacement along x, in boxes (image.hpp)
     std::uint64_t pair_collisions : 47 = 0;
-    /// Whether the disc has collided since the last sync; set only with effects (contact_guard.hpp)
+    /// Whether the disc has collided since the last sync; set only in runs with effects
     std::uint64_t has_collided : 1 = 0;
     std::int64_t image_y : 16 = 0;
 
@@ -59,7 +59,7 @@ struct alignas(64) DiscState {
 static_assert(sizeof(DiscState) == 64);
 
 /// A vector of states. Resizing does not initialise new elements, so the caller must write each of
-/// them or pass a value.
+/// them, or pass a value to `resize`.
 using DiscStates = RawVector<DiscState>;
 
 CARROM_DEVICE inline double squared_speed_of(const DiscState& disc) {

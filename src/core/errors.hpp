@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kinds of failure, by the ranks that detect them (docs/understanding/architecture.md): 1. a
-// wrong input, which all ranks find; 2. a failed operation of all ranks, which all ranks report
-// together; 3. a broken invariant, which one rank may find alone. The first two are exceptions of
-// the public API.
+// There are three kinds of failure, which differ in the ranks that detect them
+// (docs/understanding/architecture.md): 1. a wrong input, which all ranks find; 2. a failed
+// operation of all ranks, which all ranks report together; 3. a broken invariant, which one rank
+// may find alone. The first two are exceptions of the public API.
 #pragma once
 
 #include <string_view>
@@ -13,14 +13,15 @@
 
 namespace carrom {
 
-/// Ends the program because an invariant is broken, also in Release builds, because a wrong number
-/// must never look like a result. The default handler prints and aborts; the parallel module
-/// installs a handler that aborts all ranks.
+/// Ends the program when an invariant is broken. Release builds do this, too, because a wrong
+/// number must never look like a result. The default handler prints `text` and aborts; the parallel
+/// module installs a handler that aborts all ranks.
 [[noreturn]] void fail(std::string_view text, const char* file, int line);
 using FailureHandler = void (*)(std::string_view text, const char* file, int line);
 void set_failure_handler(FailureHandler handler);
 
-/// Calls `fail` if `claim` is false. On a GPU it stops the kernel, and the host reports it.
+/// Calls `fail` if `claim` is false. On a GPU a false claim stops the kernel, and the host reports
+/// an error.
 CARROM_DEVICE inline void ensure(bool claim, std::string_view text,
                                  const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
 #ifdef __CUDA_ARCH__

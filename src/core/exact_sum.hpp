@@ -34,7 +34,7 @@ public:
     void clear() { sum_ = 0; }
     double value() const;
 
-    /// The sum as two 64-bit words, which other ranks add with carries (see `add_words`).
+    /// The sum as two 64-bit words, from which Communicator::sum computes the sum over all ranks.
     std::uint64_t low_word() const { return static_cast<std::uint64_t>(sum_); }
     std::uint64_t high_word() const { return static_cast<std::uint64_t>(sum_ >> 64); }
     void add_words(std::uint64_t low, std::uint64_t high);
@@ -46,7 +46,7 @@ private:
 
     Wide sum_ = 0;
     int exponent_ = 0; ///< the unit is 2^-exponent_
-    double scale_ = 1; ///< 2^exponent_, or infinite if that is more than a double holds
+    double scale_ = 1; ///< 2^exponent_, or infinite if a double cannot hold it
 };
 
 /// Returns a sum of 0 with the same bound.

@@ -2,10 +2,11 @@
 // The frame of reference in which states are stored, relative to the box.
 //
 // If discs fall, states are stored in a frame that falls freely from the last sync on. Under drag,
-// times are stored on a clock that slows down as the discs do. In this frame discs fly straight at
-// constant speed, so contacts of pairs need neither falling nor drag. In a periodic box stored
-// positions may leave the box, and the disc's image is in the box. Without these effects the frame
-// is at rest in the box, and states are not converted.
+// times are read from a clock that slows down in the same way as the discs. In this frame discs fly
+// straight at constant speed, so contacts of pairs are computed as if there were neither falling
+// nor drag. In a periodic box a stored position may be outside of the box, and an image of the disc
+// is inside. Without falling, drag and periodic sides the frame is at rest in the box, and states
+// are not converted.
 #pragma once
 
 #include "core/disc_state.hpp"
@@ -14,11 +15,11 @@
 namespace carrom {
 
 struct Frame {
-    /// Whether stored states differ from states in the box: by motion, clock or image
+    /// Whether a stored state may differ from the state in the box, by motion, clock or image
     bool is_moving = false;
     double x = 0, y = 0;   ///< position of the frame's origin in the box
     double vx = 0, vy = 0; ///< the frame's velocity in the box, in lengths per micro-step
-    double slowing = 1;    ///< rate of the frame's clock relative to the box's
+    double slowing = 1;    ///< rate of the frame's clock relative to the box's clock
     double clock = 0;      ///< time since the last sync on the frame's clock
     Periods periods{};     ///< periods of the box (image.hpp); 0 without periodic sides
 

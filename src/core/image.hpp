@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Images of discs in a box with periodic sides. An image has a shift and a velocity, which are
-// functions of time. All code that needs positions of images uses `Periods`.
+// Images of discs in a box with periodic sides. An image is displaced from the stored position of
+// its disc, and under shear this displacement changes with time. All code that needs positions of
+// images uses `Periods`.
 //
 // Stored states are never shifted: between syncs a disc may fly out of the box. Engines use the
 // state together with its image, the numbers of boxes by which the disc is displaced along x and y.
 // A rank may have several copies of a disc, which differ only in the image. The contact of a pair
 // depends on the difference of the two images, two whole numbers that are equal on every rank that
 // has the pair. The image is stored in the cache line of the state, so that it moves with the disc.
-// Only engines use images; without periodic sides there are none.
+// Only engines use images. Without periodic sides all images are (0, 0).
 //
 // Usually all boxes are at rest, and an image is shifted by a whole number of box lengths. Under
 // shear (Lees and Edwards, J. Phys. C 5, 1921 (1972)) the row of boxes above moves along x with a
@@ -27,7 +28,7 @@
 
 namespace carrom {
 
-/// A displacement in numbers of boxes.
+/// A displacement in whole box lengths along x and y.
 struct Image {
     int x = 0, y = 0;
 
@@ -76,9 +77,9 @@ struct Inside {
     }
 };
 
-/// Maps a coordinate into [0, period) with one rounding, or with two close to 0 or the period. With
-/// period 0 it returns `place` unchanged. Unless `lengths` is null, adds to `*lengths` the number
-/// of periods that were added to the coordinate.
+/// Maps a coordinate into [0, period) with one rounding, or with two if the result is close to 0 or
+/// to the period. With period 0 it returns `place` unchanged. Unless `lengths` is null, adds to
+/// `*lengths` the number of periods that were added to the coordinate.
 CARROM_DEVICE inline double wrapped(double place, double period, double* lengths = nullptr) {
     if (period == 0 || (place >= 0 && place < period)) return place;
     double up = -std::floor(place / period), inside = std::fma(up, period, place);
@@ -117,7 +118,7 @@ struct Periods {
         offset = wrapped(wrapped(gone, x) + rest, x);
     }
 
-    /// The shift and the velocity of an image.
+    /// The displacement of an image from the stored position at `time`, and its rate of change.
     CARROM_DEVICE Shift shift_of(Image image, double time) const {
         return {image.x * x + image.y * offset_at(time), image.y * y, image.y * speed};
     }
@@ -134,7 +135,7 @@ struct Periods {
         return are_shifted_alike(p, q) ? 0 : (image_of(q).y - image_of(p).y) * y;
     }
 
-    /// The position of the disc's image along x.
+    /// The x coordinate of the disc's image at `time`.
     [[gnu::always_inline]] CARROM_DEVICE double x_of(const DiscState& disc, double time) const {
         if (is_unshifted(disc)) return disc.x_at(time);
         const double at_rest = shifted_x(disc, time);
@@ -170,7 +171,8 @@ struct Periods {
         }
         disc.x = wrapped(disc.x, x);
     }
-    /// Reduces a displacement (dx, dy) to the nearest row of images, then to the nearest one in x.
+    /// Reduces a displacement (dx, dy) by whole boxes: first to the nearest row of images, then
+    /// along x to the nearest image in this row.
     Shift nearest(double dx, double dy, double time) const {
         if (y != 0) {
             const double down = std::round(dy / y);
@@ -190,7 +192,7 @@ struct Periods {
     friend bool operator==(const Periods&, const Periods&) = default;
 
 private:
-    // Not inlined, so that the common case, an image that is not shifted, stays short.
+    // Not inlined, so that the code for the common case, an image without a shift, stays short.
     [[gnu::noinline]] CARROM_DEVICE double shifted_x(const DiscState& disc, double time) const {
         return disc.x_at(time) + image_of(disc).x * x;
     }

@@ -42,7 +42,7 @@ std::ifstream open_plain_file(const std::string& path, OpenProblem& problem) {
     problem = is_socket ? OpenProblem{"is not a plain file", false, true} : problem_of(number);
     std::ifstream stream;
     if (problem.text.empty()) {
-        // Opens the tested handle, because the name may belong to another file by now.
+        // Opens the tested file by its descriptor; by now its name may refer to another file.
         stream.open("/proc/self/fd/" + std::to_string(number), std::ios::binary);
         if (!stream) problem = {"cannot be opened: " + std::generic_category().message(errno)};
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens files for reading. Their names come from a user or a folder's list, and only plain files
-// are accepted, because opening a pipe without a writer would wait for ever.
+// Opens files for reading. The names come from users or from listings of folders, so a name may
+// refer to a pipe. Only plain files are accepted, because opening a pipe that has no writer would
+// wait for ever.
 #pragma once
 
 #include <fstream>

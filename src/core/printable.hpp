@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// Replaces each control character by an escape such as \x1b, except ends of lines if
-/// `keeps_lines`. All other bytes stay unchanged, even if they are not valid UTF-8.
+/// Replaces each control character by an escape such as \x1b, except line breaks if `keeps_lines`.
+/// All other bytes stay unchanged, even if they are not valid UTF-8.
 std::string printable(std::string_view text, bool keeps_lines = false);
 
 } // namespace carrom

@@ -44,7 +44,8 @@ NormalPair random_normals(DiscRandom& random) {
 double random_exponential(DiscRandom& random) {
     // After a first number x, numbers are drawn while they descend, x >= u2 >= u3 >= ... The index
     // of the first number above its predecessor is even with probability 1 - x + x^2/2! - ... =
-    // exp(-x). Each failure adds 1 to `whole`, so the density of x + whole is exp(-(x + whole)).
+    // exp(-x). Each odd index is a failure and adds 1 to `whole`, so the density of x + whole is
+    // exp(-(x + whole)).
     for (double whole = 0;; whole += 1) {
         const double first = random.uniform();
         double last = first;

@@ -2,9 +2,10 @@
 // Random numbers from counters. Any rank can draw the numbers of any disc in any order, and gets
 // the same numbers.
 //
-// Philox4x64-10 (Salmon, Moraes, Dror and Shaw, SC 2011) with key (seed, purpose) and counter (id,
-// attempt, ...), so numbers for two purposes are independent. Words become numbers by + - * / and
-// sqrt only, which have the same bits on every machine.
+// The generator is Philox4x64-10 (Salmon, Moraes, Dror and Shaw, SC 2011) with the key (seed,
+// purpose) and the counter (id, attempt, ...), so numbers for two purposes are independent. Random
+// words are converted to numbers with + - * / and sqrt only, which give the same bits on every
+// machine.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A vector of numbers or plain structs that does not fill new elements with zeros. The one thread
-// that resizes would fill them while others wait, and the memory would lie near its processor.
-// Without filling, each thread is the first to write the elements that it uses.
+// that resizes would fill them while other threads wait, and all memory would be placed near its
+// processor. Without filling, each thread is the first to write the elements that it uses.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sine and cosine with correct rounding, so they have the same bits on every processor and with
-// every C library. C libraries have errors slightly over half a unit in the last place that depend
-// on the processor, so that one value in 700 differs.
+// every C library. The errors of C libraries slightly exceed half a unit in the last place and
+// depend on the processor, so that one value in 700 differs.
 //
 // The computation uses pairs of doubles (some 100 bits). Cost: about a microsecond.
 #pragma once

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Side columns: numbers of each disc outside of its 64-byte state, if a run's dynamics need them.
+// Side columns: numbers that some runs need for each disc in addition to its 64-byte state.
 //
-// Engines send, sort and roll back all columns that a run has, whatever they mean. Scenes,
+// Engines send, sort and roll back all columns that a run has, whatever their meaning. Scenes,
 // checkpoints, restarts and recordings use the table below. A new column needs a name and a line in
 // the table. If effects need the column, add a line to the function `side_columns_of` of
 // dynamics/effects.hpp; if collisions change it, add a line to the last function of this file. A
@@ -26,7 +26,8 @@ struct SideColumnInfo {
     const char* name;  ///< name in checkpoints, and in scenes that give initial values
     const char* shown; ///< the column's name in recordings, tables and the fields of a trajectory
     bool is_rate;      ///< whether it is a rate, stored per micro-step
-    /// Whether effects determine which runs have the column; else runs with initial values have it
+    /// If true, the effects of a run determine whether it has the column. If false, a run has the
+    /// column if its scene gives initial values.
     bool is_of_dynamics;
     bool is_given;     ///< whether scenes may give initial values; such columns come first
     const char* needs; ///< error message if initial values are given in a run without this column
@@ -87,11 +88,11 @@ struct SideColumnSet {
 /// For each column a view of its values for a list of discs; empty if the column is absent.
 using SideSpans = BySideColumn<std::span<const double>>;
 
-/// The columns that a run has; each holds one number for each disc of the same list.
+/// The columns of a run. Each has one number for each disc of a list, in the order of this list.
 class SideColumns {
 public:
     SideColumns() = default;
-    /// Copies the columns that have numbers; empty columns are absent.
+    /// Copies the columns that have numbers; empty columns become absent.
     explicit SideColumns(const SideSpans& spans) {
         for (std::size_t k = 0; k < n_side_columns; ++k)
             if (!spans.values[k].empty())

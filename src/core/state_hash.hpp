@@ -4,7 +4,7 @@
 //
 // The record of each disc (id, position, velocity, local time, counters; -0 counts as +0) is hashed
 // with XXH3-128. The hashes are added, so ranks and threads may add their shares in any order.
-// Cost: some 10 ns a disc.
+// Cost: about 10 ns per disc.
 #pragma once
 
 #include <span>

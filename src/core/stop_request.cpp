@@ -12,7 +12,7 @@ static_assert(std::atomic<std::int64_t>::is_always_lock_free, "handlers of signa
 
 namespace {
 
-/// How long a step may still take after a request, in nanoseconds
+/// How long a start or a step may still take after a request, in nanoseconds
 std::atomic<std::int64_t> patience = 1'000'000'000;
 
 std::int64_t now() {

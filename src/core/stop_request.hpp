@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records requests to stop, from signal handlers, and defines the exception that stops all ranks.
+// Records requests to stop a run, which signal handlers make, and defines the exception that stops
+// all ranks.
 //
 // A run normally stops between two steps. If a start or a step is still running when the patience
 // (`set_stop_patience`) has passed since the request, it is abandoned. Ranks get signals at
@@ -15,7 +16,7 @@
 namespace carrom {
 
 namespace stop_request {
-/// Time of the request in nanoseconds of the steady clock; 0: none
+/// Time of the request in nanoseconds of the steady clock; 0 if there is none
 extern std::atomic<std::int64_t> requested_at;
 bool has_patience_ended();
 } // namespace stop_request

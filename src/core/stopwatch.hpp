@@ -9,7 +9,7 @@ namespace carrom {
 
 class Stopwatch {
 public:
-    /// Returns the seconds since the last call, or since the stopwatch was made.
+    /// Returns the seconds since the previous call, or, at the first call, since construction.
     double lap() {
         const auto now = Clock::now();
         return std::chrono::duration<double>(now - std::exchange(lap_start_, now)).count();

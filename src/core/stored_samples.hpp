@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The data of averages and measurements that a checkpoint stores: plain numbers. Sampler writes and
-// reads them.
+// The state of averages and measurements, as the plain numbers that a checkpoint stores. Sampler
+// produces these numbers and restores its state from them.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct FirstPlace {
     double image_x = 0, image_y = 0;
 };
 
-/// Number of box lengths by which periodic sides have shifted a disc since counting began.
+/// Box lengths by which periodic sides have shifted a disc since the count of images began.
 struct DiscImage {
     DiscId id = 0;
     std::int32_t x = 0, y = 0;
@@ -32,7 +32,7 @@ struct StoredSamples {
     std::vector<std::int64_t> averages; ///< equal on all ranks; empty before averaging begins
     std::vector<std::int64_t> watched;  ///< equal on all ranks; empty if OrderWatch samples nothing
     std::vector<std::int64_t> sums;     ///< equal on all ranks; empty if nothing is measured
-    std::vector<std::int64_t> stop; ///< equal on all ranks; empty if no pressure may end the run
+    std::vector<std::int64_t> stop; ///< equal on all ranks; empty if no pressure can end the run
     /// Values that effects keep; stored with the samples (StoredState::kept_by_effects)
     std::vector<std::int64_t> effects;
     bool have_first_places = false; ///< whether `first_places` has x and y; equal on all ranks

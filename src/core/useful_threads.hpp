@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The number of threads that is useful for a number of discs.
+// How many threads are useful for a given number of discs.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 
 namespace carrom {
 
-/// With fewer discs for each thread, threads spend most of their time on copying discs of other
-/// threads, or on waking and sleeping.
+/// With fewer discs per thread, threads would spend most of their time copying other threads'
+/// discs, or waking up and going to sleep.
 inline constexpr std::uint64_t least_discs_per_thread = 16;
 
 /// The number of threads to use: at most `n_threads`, at least one.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts the box into the domains of ranks: of equal areas at first, of equal work later.
+// Cuts the box into one domain for each rank: at first with equal areas, later with equal work.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ private:
 
 /// Domains of about equal weights; strip k is divided into `group_sizes[k]` domains.
 /// `for_each(visit)` calls visit(along, across, weight) for each of this rank's discs, with its
-/// position in the box. It is called twice if strips are cut across. **Collective.**
+/// position in the box. `for_each` is called twice if strips are cut across. **Collective.**
 template <class ForEach>
 Domains domains_of_equal_weights(const Communicator& communicator, const Box& box, Axis axis,
                                  const std::vector<int>& group_sizes, const ForEach& for_each) {

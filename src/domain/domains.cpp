@@ -10,9 +10,9 @@ namespace carrom {
 
 namespace {
 
-/// Limits for groups of ranks: with them a rank must have fewer own and halo discs than this share
-/// of its number with whole strips, and at least `least_saved` fewer, because copying so many discs
-/// takes as long as messages to six more neighbours.
+/// Groups of ranks are used only if they reduce a rank's mean number of own and halo discs to less
+/// than the share `worth_a_group` of the number with whole strips, and by at least `least_saved`,
+/// because copying that many discs takes as long as messages to six more neighbours.
 constexpr double worth_a_group = 0.95, least_saved = 600;
 
 /// The mean over ranks of the area of domain and halo, divided by the area of the domain. Halos end

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Assigns rectangles of the box (domains) to ranks. Cuts along the strips' axis divide the box into
 // strips. Each strip belongs to a group of ranks, which divide the strip across this axis. A group
-// of one rank owns a whole strip. Only arithmetic, without MPI.
+// of one rank owns a whole strip. All of this is arithmetic without MPI.
 //
 // With few ranks each group has one rank, because whole strips have the fewest neighbours. With
-// many ranks whole strips would be so narrow that most discs of a rank would be in its halo. A
-// rectangle about as wide as high has the smallest halo. Each strip has its own cuts, so that all
-// domains can have equal work in any distribution of discs.
+// many ranks whole strips would be so narrow that a rank would have more halo discs than own discs.
+// Rectangles that are almost squares have the smallest halos. Each strip has its own cuts, so that
+// all domains can have equal work in any distribution of discs.
 //
-// All lists of ranks follow from numbers that every rank has (see strips.hpp). So the lists are
-// symmetric, and no disc is missed because of rounding.
+// All lists of ranks are computed from numbers that are equal on all ranks (see strips.hpp). So the
+// lists are symmetric, and no disc is missed because of rounding.
 #pragma once
 
 #include <utility>
@@ -45,7 +45,7 @@ public:
     Domains() : Domains(Strips()) {}
     /// Groups of one rank: each rank owns a whole strip.
     explicit Domains(Strips strips);
-    /// `groups[k]` are the cuts across strip k; there must be one for each strip.
+    /// `groups[k]` has the cuts across strip k; it needs one element for each strip.
     Domains(Strips strips, std::vector<Strips> groups);
 
     Axis axis() const { return strips_.axis(); }
@@ -75,7 +75,7 @@ public:
     /// number of ranks in the strips within reach.
     std::vector<int> neighbours_within(int rank, double reach) const;
 
-    /// The domains of a box that has become longer by these factors above 0.
+    /// The domains after the box has been stretched by these positive factors.
     Domains stretched(double along_x, double along_y) const;
 
     friend bool operator==(const Domains&, const Domains&) = default;
@@ -83,7 +83,7 @@ public:
 private:
     Strips strips_;
     std::vector<Strips> groups_; ///< the cuts across each strip
-    /// First rank of each strip, and then the number of ranks
+    /// First rank of each strip; the last element is the number of ranks
     std::vector<int> first_ranks_;
 };
 

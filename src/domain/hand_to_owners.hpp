@@ -11,15 +11,15 @@
 namespace carrom {
 
 /// Moves each value to the rank `owner_of(i)`, where i is the value's index before the call.
-/// `owner_of(i)` may read `values[i]`, which still holds that value. Values are sent in rounds, and
-/// arriving values take the places of values that were sent. Sending all values together would take
-/// two or three times their memory. **Collective.**
+/// `owner_of(i)` may read `values[i]`, which is not overwritten before this call. Values are sent
+/// in rounds, and arriving values take the places of values that were sent. Sending all values
+/// together would take two or three times their memory. **Collective.**
 template <class Values, class Owner>
 void hand_to_owners(const Communicator& communicator, Values& values, const Owner& owner_of) {
     using T = typename Values::value_type;
     constexpr std::size_t n_rounds = 32;
     const std::size_t n = values.size(), rank = static_cast<std::size_t>(communicator.rank());
-    std::vector<T> waiting; // arrived values without a place
+    std::vector<T> waiting; // arrived values for which no place is free yet
     std::size_t n_kept = 0;
     for (std::size_t round = 0; round < n_rounds; ++round) {
         std::vector<std::vector<T>> out(static_cast<std::size_t>(communicator.size()));

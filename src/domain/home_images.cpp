@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In periodic boxes, gives each own disc of a rank the image that lies in the box.
+// Selects, for each own disc of a rank in a periodic box, the image that lies in the box.
 #include "domain/strip_discs.hpp"
 #include "domain/transfer_in_parts.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plans transfers in boxes with periodic sides. There, domains are also neighbours across the sides
-// of the box, and a rank may be its own neighbour.
+// Plans transfers in boxes with periodic sides. In such boxes, domains are also neighbours across
+// the sides of the box, and a rank may be its own neighbour.
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +11,8 @@ namespace carrom {
 
 namespace {
 
-/// When partners are listed, distances are enlarged by this fraction of a period, because positions
-/// of images are rounded.
+/// When partners and images are chosen, distances are enlarged by this fraction of a period,
+/// because positions of images are rounded.
 constexpr double margin = 1e-9;
 
 /// The rank's domain, cut off at the sides of the box along periodic axes.
@@ -35,7 +35,7 @@ bool are_near(const Strip& a, const Strip& b, double distance, double shift) {
 }
 
 /// Whether a position in strip `a` can be within `distance` of a position in strip `b` or of its
-/// images. If `is_beyond`, only images beyond a side count.
+/// images. If `is_beyond`, strip `b` itself does not count, but only its images.
 bool are_near_images(const Strip& a, const Strip& b, double distance, double period,
                      bool is_beyond) {
     const double n_last = period == 0 ? 0 : std::ceil(distance / period) + 1;
@@ -119,7 +119,7 @@ TransferPlan plan_periodic_migration(const Domains& before, const Domains& domai
         const double along = periods.place_of(own[i], axis, time);
         const double across = domains.are_cut_across()
                                   ? periods.place_of(own[i], other_axis(axis), time)
-                                  : 0; // has no effect, because strips are not cut across
+                                  : 0; // any value: strips are not cut across, so it is not used
         if (mine.holds(along, across)) return;
         const int owner = domains.owner(along, across);
         if (owner == rank) return;

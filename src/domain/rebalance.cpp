@@ -2,11 +2,12 @@
 // Moves the cuts between domains, so that all ranks get equal work. First the box is cut into
 // strips, by the work along the axis. Then each strip is cut across, by the work in the strip.
 //
-// The engine counts the work of a rank and its halo. This work is divided among the rank's discs:
-// each gets the same part of the work for single discs, and a part of the work for pairs in
-// proportion to the number of other discs in its cell. So a cut can pass through a cluster. Errors
-// of this estimate appear in the next count and are then corrected. Cost: one or two passes over
-// the own discs, and sums of some thousand numbers for each direction and strip.
+// The engine counts the work that each rank does for its own discs and its halo. This work is
+// divided among the rank's discs: each gets the same part of the work for single discs, and a part
+// of the work for pairs in proportion to the number of other discs in its cell. So a cut can pass
+// through a cluster. Errors of this estimate show in the next count, and the next cuts correct
+// them. Cost: one or two passes over the own discs, and sums of some thousand numbers for each
+// direction and strip.
 #include <algorithm>
 
 #include "domain/domain_cuts.hpp"
@@ -15,7 +16,8 @@
 
 namespace carrom {
 
-/// Calls visit(disc, weight) for each own disc. The weight is its work in `unit`s, at least 1.
+/// Calls visit(disc, weight) for each own disc. The weight is the work for the disc in multiples of
+/// `unit`, and at least 1.
 template <class Visit>
 void StripDiscs::weigh(const RankWork& work, double unit, const Visit& visit) const {
     const auto of_disc = [&](double of_discs, double of_pairs) {

@@ -14,8 +14,8 @@ namespace carrom {
 
 namespace {
 
-/// The axis along which strips follow each other. Moving rows of boxes slide along x. Strips then
-/// follow each other along y, so that only the first and the last strip have moving images.
+/// The axis along which strips follow each other. Under shear, rows of boxes slide along x; strips
+/// then follow each other along y, so that only the first and the last strip have moving images.
 Axis cut_axis(const Box& box, const Periods& periods) {
     return periods.are_moving() ? Axis::y : longer_axis(box);
 }
@@ -123,8 +123,8 @@ std::pair<double, double> StripDiscs::place_in_box(const DiscState& disc, double
 
 void StripDiscs::set_departed_aside() {
     forget_halo();
-    // A loop, because std::stable_partition allocates a buffer whose alignment is too small for
-    // discs.
+    // Copies and then erases, because std::stable_partition would allocate a buffer whose alignment
+    // is too small for discs.
     const auto has_departed = [](const DiscState& disc) { return disc.has_departed(); };
     std::copy_if(discs_.begin(), discs_.end(), std::back_inserter(departed_), has_departed);
     columns_.for_each([&](SideColumn column) {
@@ -142,7 +142,8 @@ void StripDiscs::set_departed_aside() {
     n_total_ = communicator_.sum(std::uint64_t{n_own_});
 }
 
-/// The owner follows from the domains of the last migration, because the next one starts from them.
+/// The domains of the last migration determine the owner, because the next migration starts from
+/// them.
 void StripDiscs::take_back(std::span<const ReturningDisc> discs) {
     if (discs.empty()) return;
     forget_halo();
@@ -183,7 +184,7 @@ void StripDiscs::migrate(double time, double farthest, DiscStates* companion) {
     redistributed_domains_ = domains_;
 }
 
-/// Moves the values of discs that leave to other ranks, and appends the values of arriving discs.
+/// Sends the values of leaving discs to their new ranks, and appends the values of arriving discs.
 template <class Values> void StripDiscs::move_along(const TransferPlan& plan, Values& values) {
     Values arrived;
     transfer(exchange_, plan, values, arrived, n_threads_);
@@ -191,7 +192,8 @@ template <class Values> void StripDiscs::move_along(const TransferPlan& plan, Va
     values.insert(values.end(), arrived.begin(), arrived.end());
 }
 
-/// Plans the migration. Without periodic sides it skips discs that were sorted deep in the domain.
+/// Plans the migration. Without periodic sides it skips discs that were deep inside the domain when
+/// they were sorted.
 TransferPlan StripDiscs::migration_plan(double time, double farthest) const {
     const int rank = communicator_.rank();
     if (periods_.are_any())
@@ -317,7 +319,8 @@ void StripDiscs::send_updates(std::span<const LocalIndex> changed,
     });
 }
 
-/// For each partner, lists the own discs in `changed` by their places in the halo plan's list.
+/// For each partner, finds the own discs in `changed` that the partner has in its halo, and lists
+/// their places in the list of the halo plan.
 TransferPlan StripDiscs::plan_updates(std::span<const LocalIndex> changed) const {
     TransferPlan plan;
     plan.partners = halo_plan_.partners;

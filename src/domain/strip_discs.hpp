@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of one rank: its own discs, in the order of their cells, and behind them the halo that
+// The discs of one rank: its own discs, in the order of their cells, followed by the halo that
 // neighbours have sent. The rank owns a strip or a part of a strip (domains.hpp). This class
 // migrates discs between ranks, sorts them, and fetches the halo.
 //
@@ -26,7 +26,7 @@
 
 namespace carrom {
 
-/// Settings for the number of ranks that share a strip. They affect only the cost.
+/// Settings for the number of ranks that share a strip. They only affect the speed of a run.
 struct GroupChoice {
     double halo_spacings = 0; ///< usual depth of halos, in mean distances between discs
     /// If unset, it is chosen from the halo's depth, the box and the number of ranks
@@ -49,10 +49,11 @@ struct ReturningDisc {
 
 class StripDiscs {
 public:
-    /// Takes discs in any distribution and gives them to the owners of domains of equal area, or of
-    /// equal numbers of discs if these are clustered. In a periodic box, migration gives own discs
-    /// their images in the box, and the halo may contain images of own discs. `columns` have the
-    /// order of the discs; missing numbers are 0. **Collective.**
+    /// `discs` may be in any distribution over the ranks. Sends each disc to the owner of its
+    /// domain. Domains have equal areas, or equal numbers of discs if discs are clustered. In a
+    /// periodic box, migration gives own discs their images in the box, and the halo may contain
+    /// images of own discs. `columns` have the order of the discs; missing numbers are 0.
+    /// **Collective.**
     StripDiscs(const Communicator& communicator, const Box& box, DiscStates discs,
                const Periods& periods, SideColumns columns, int n_threads,
                const GroupChoice& choice);
@@ -62,8 +63,8 @@ public:
     /// second state of each own disc, in the same order, or is null. **Collective.**
     void migrate(double time, double farthest, DiscStates* companion);
 
-    /// Sorts the own discs, and all arrays with one element a disc, by their cells at the time
-    /// `anchor` (CellGrid::sort); the grid then has no halo. `companion`: see migrate.
+    /// Sorts the own discs, and all arrays with one element per disc, by the discs' cells at the
+    /// time `anchor` (CellGrid::sort); the grid then has no halo. `companion`: see migrate.
     void sort(const GridGeometry& geometry, double anchor, double time, double duration,
               DiscStates* companion);
     /// Sorts the own discs into cells by their positions at `time`, for searches at that time only.
@@ -94,13 +95,13 @@ public:
             transfer(exchange_, part.plan, values, values, n_threads_);
     }
 
-    /// Reports the halo discs `of_halo` to their owners. Appends the own discs that other ranks
-    /// have reported to `reported`. **Collective.**
+    /// Reports each halo disc in `of_halo` to the rank that owns it. Appends to `reported` those
+    /// own discs that other ranks report in the same call. **Collective.**
     void report_to_owners(std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
 
     /// Moves the cuts so that all domains have equal work, if the largest `work` of a rank exceeds
-    /// `above` times the mean. Discs count at their positions at `time`; the next migration sends
-    /// them to their new owners. **Collective.**
+    /// `above` times the mean. The cuts are computed from positions at `time`; the next migration
+    /// sends them to their new owners. **Collective.**
     void rebalance(double time, double above, const RankWork& work);
 
     Population population() const { return {discs_, n_own_}; }
@@ -111,7 +112,7 @@ public:
     DiscStates& all() { return discs_; }
     std::span<const DiscState> own() const { return std::span(discs_).first(n_own_); }
     std::span<DiscState> own() { return std::span(discs_).first(n_own_); }
-    /// Numbers in side columns of all discs, first own discs, then halo.
+    /// Side columns of all discs: first the own discs, then the halo.
     SideColumns& columns() { return columns_; }
     const SideColumns& columns() const { return columns_; }
     SideSpans own_columns() const {
@@ -122,22 +123,23 @@ public:
     std::size_t n_own() const { return n_own_; }
     std::uint64_t n_total() const { return n_total_; } ///< number of discs on all ranks
     const Domains& domains() const { return domains_; }
-    /// The other ranks that may have own discs of this rank in the halo that they fetched last.
+    /// The other ranks whose present halos may contain own discs of this rank.
     std::span<const int> neighbours() const {
         return periods_.are_any() ? other_partners_ : halo_plan_.partners;
     }
 
     const Periods& periods() const { return periods_; }
-    /// Call it after each sync, because a sync moves the origin of time for moving images.
+    /// Must be called after each sync, because the sync is the new time 0 of moving images.
     void set_periods(const Periods& periods) { periods_ = periods; }
-    /// Gives a periodic box other sides, and stretches domains and the positions of own discs with
-    /// their axis. There must be no halo. A stretched position may lie on the upper side of the
-    /// box.
+    /// Changes the side lengths of a periodic box, and stretches domains and positions of own discs
+    /// in proportion, each axis by its own factor. There must be no halo. Because of rounding, a
+    /// stretched position may lie on the upper side of the box.
     void reshape(const Box& box);
     /// Whether no rank has a halo, because there is one rank and no periodic side.
     bool has_no_halo() const { return communicator_.size() == 1 && !periods_.are_any(); }
-    /// Removes images of own discs until the next migration. If `are_in_box`, as after a sync, that
-    /// migration searches only discs that were near the sides when sorted.
+    /// Sets the images of own discs to (0, 0) until the next migration. If `are_in_box`, as after a
+    /// sync, that migration tests only discs that were near the sides of the box when they were
+    /// sorted.
     void forget_images(bool are_in_box = false);
 
     /// Like forget_images, but restore_images can restore the images until the next migration.
@@ -176,7 +178,8 @@ private:
     /// Halo discs that fetch_more_halo has added.
     struct HaloPart {
         TransferPlan plan;
-        /// For each partner, the index in `discs_` of its first disc; then the end of the last ones
+        /// Index in `discs_` of each partner's first disc; the last element is the end of the last
+        /// partner's discs
         std::vector<std::size_t> offsets;
     };
 
@@ -191,7 +194,8 @@ private:
                      std::span<const LocalIndex> of_halo, std::vector<LocalIndex>& reported);
     Companions companions(DiscStates* states);
 
-    /// The new state of a disc, and its index among the discs that the partner has from this rank.
+    /// The new state of a disc, and its index among the discs that this rank has sent to the halo
+    /// of the partner.
     struct Update {
         DiscState disc;
         std::uint64_t place;
@@ -218,7 +222,8 @@ private:
     bool is_sorted_ = false; ///< whether own discs are still in the order of the grid
     /// Own discs with an image other than (0, 0), and this image
     std::vector<std::pair<LocalIndex, Image>> displaced_;
-    bool are_displaced_listed_ = false; ///< whether `displaced_` is filled since the last migration
+    /// Whether `displaced_` has been filled since the last migration
+    bool are_displaced_listed_ = false;
     bool has_images_ = false; ///< if false, the next migration tests the images of all own discs
     TransferPlan halo_plan_;
     /// Neighbours except this rank itself, which is its own neighbour in a periodic box

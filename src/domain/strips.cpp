@@ -58,10 +58,11 @@ bool can_move(const Strip& before, const Strip& after, double distance) {
 }
 
 bool are_within(const Strip& a, const Strip& b, double reach) {
-    // Senders make these comparisons with rounded numbers. A sender below b compares the rounded x
-    // + reach, which is at most a.high + reach, because rounding is monotone. A sender above b
-    // compares the rounded x - reach; if that is less than b.high, the rounded b.high + reach is at
-    // least x. The difference of two edges could be rounded in the wrong direction.
+    // This must be true if a sender in `a` would choose `b` for a disc at x, by comparisons of
+    // rounded numbers. If `a` is below `b`, the rounded x + reach is at most the rounded a.high +
+    // reach, because rounding is monotone. If `a` is above `b` and the rounded x - reach is less
+    // than b.high, the rounded b.high + reach is at least x. The difference of two edges could be
+    // rounded the wrong way.
     return a.high + reach >= b.low && b.high + reach >= a.low;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cuts an axis, by default x, into half-open strips, and lists owners that may exchange discs.
-// Domains (domains.hpp) use strips in both directions. Only arithmetic, without MPI.
+// Domains (domains.hpp) use strips in both directions. All of this is arithmetic without MPI.
 //
-// All lists follow from numbers that every rank has, so both partners of an exchange compute the
-// same lists without messages. Lists are symmetric: a lists b if and only if b lists a. No disc is
-// missed if senders choose receivers with `meets(x - reach, x + reach)` or `owner(x)`, because all
-// these comparisons round in the same way.
+// All lists are computed from numbers that are equal on all ranks, so both partners of an exchange
+// compute the same lists without messages. Lists are symmetric: a lists b if and only if b lists a.
+// No disc is missed if senders choose receivers with `meets(x - reach, x + reach)` or `owner(x)`,
+// because all these comparisons round in the same way.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,7 @@ public:
     /// `rank`. The cost is proportional to the number of strips within reach.
     std::vector<int> neighbours_within(int rank, double reach) const;
 
-    /// The strips of an axis that has become longer by this factor above 0.
+    /// The strips after the axis has been stretched by this positive factor.
     Strips stretched(double factor) const;
 
     friend bool operator==(const Strips&, const Strips&) = default;
@@ -67,7 +67,7 @@ private:
     Axis axis_ = Axis::x;
 };
 
-/// Whether a disc from the strip `before` can be in the strip `after` when it has moved by at most
+/// Whether a disc from the strip `before` can be in the strip `after` once it has moved by at most
 /// `distance`. Neither strip may be empty.
 bool can_move(const Strip& before, const Strip& after, double distance);
 

@@ -3,8 +3,8 @@
 // element for each disc.
 //
 // Migration and the halo are two kinds of plan for the same transfer. Each rank computes its
-// partners from the cuts and a bound on distances. So the only messages carry discs, one message to
-// each partner.
+// partners from the cuts and a bound on distances. So planning needs no messages, and each transfer
+// sends one message to each partner.
 #pragma once
 
 #include <algorithm>
@@ -60,9 +60,9 @@ TransferPlan plan_halo(const Domains& domains, int rank, std::span<const DiscSta
                        std::span<const PlaceRange> searched, double time, const HaloDepth& depth,
                        int n_threads);
 
-/// These plans use positions of images in a box with periodic sides; after a migration each own
-/// disc has its image in the box. In a halo, a rank also gets other images of its own discs, and a
-/// disc may go to one rank several times.
+/// The same two plans for a box with periodic sides. They use positions of images; after a
+/// migration the image of each own disc is in the box. A halo may also contain images of the own
+/// discs of the rank, and several images of one disc.
 TransferPlan plan_periodic_migration(const Domains& before, const Domains& domains, int rank,
                                      std::span<const DiscState> own, double time, double farthest,
                                      const Periods& periods, int n_threads);
@@ -91,10 +91,10 @@ std::vector<std::size_t> transfer_images(NeighbourExchange& exchange, const Tran
                                          const DiscStates& values, DiscStates& arrived,
                                          int n_threads);
 
-/// Appends the images of own discs that a single rank needs in its own halo.
+/// Appends the halo of a run with a single rank, which consists of images of its own discs.
 void append_images(const TransferPlan& plan, DiscStates& values, int n_threads);
 
-/// Removes the elements of `values` that have been sent, and fills the gaps with the last ones.
+/// Removes the elements of `values` that have been sent, and fills the gaps with the last elements.
 template <class Values> void remove_leaving(const TransferPlan& plan, Values& values) {
     std::vector<LocalIndex> all;
     for (const std::vector<LocalIndex>& leaving : plan.leaving)

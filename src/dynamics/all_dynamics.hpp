@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All dynamics for which kernels and engines are compiled. engine/dynamics_of_scene.hpp chooses one
-// of these. Each adds some seconds of compile time, so only choices that are made for each pair are
-// compiled; all others are made at run time.
+// All types of dynamics for which kernels and engines are compiled. engine/dynamics_of_scene.hpp
+// chooses one of them for each scene. Each type adds some seconds of compile time. So only choices
+// that would otherwise be made for each pair are made at compile time, all others at run time.
 #pragma once
 
 #include "dynamics/dynamics.hpp"
@@ -21,9 +21,9 @@ using WalledDynamics = Dynamics<WalledSpace, EqualBodies>;
 using WalledMixedDynamics = Dynamics<WalledSpace, SpeciesBodies>;
 using PeriodicDynamics = Dynamics<PeriodicSpace, EqualBodies>;
 using PeriodicMixedDynamics = Dynamics<PeriodicSpace, SpeciesBodies>;
-/// For one or several species, in boxes with or without periodic sides.
+/// Discs of one or several species that may grow, in boxes with or without periodic sides.
 using GrowingDynamics = Dynamics<PeriodicSpace, GrowingBodies>;
-/// Sheared boxes use this type for a single species, too.
+/// Sheared boxes use this type even if there is only one species.
 using ShearedDynamics = Dynamics<ShearedSpace, SpeciesBodies>;
 
 // Calls make(Type) for each type of dynamics.

@@ -14,13 +14,13 @@ namespace carrom {
 
 namespace {
 
-/// A disc that slides from a tangent line onto an arc may, by rounding, reach its circle just
-/// before the arc begins. So the inner face is made longer by this share of the radius, along the
-/// tangent, which deviates from the circle by at most 5e-15 of the radius.
+/// Because of rounding, a disc that slides from a tangent line onto an arc may reach the arc's
+/// circle just before the arc begins. So the inner face is extended along its tangent by this
+/// fraction of the radius. There the tangent is within 5e-15 of the radius from the circle.
 constexpr double slip = 1e-7;
 
 /// The time at which a flight leaves the circle of radius `reach`; `never` if the flight misses
-/// this circle, or if the disc is beyond the radius `wall` and moves away.
+/// this circle, or if the disc's centre is beyond the radius `wall` and moves away.
 double way_out(const ArcFlight& f, double reach, double wall) {
     const double b = f.dx * f.wx + f.dy * f.wy, a = f.wx * f.wx + f.wy * f.wy;
     if (!(reach > 0) || !(a > 0)) return never;
@@ -29,7 +29,7 @@ double way_out(const ArcFlight& f, double reach, double wall) {
     const double speed = std::sqrt(a), most = speed * reach,
                  x = std::fabs(cross(f.dx, f.dy, f.wx, f.wy));
     const double square = (most - x) * (most + x);
-    // Rounding has put the whole flight outside of the circle of radius `reach`.
+    // The flight misses the circle. If it comes within the radius `wall`, rounding is the cause.
     if (!(square > 0)) return b < 0 && x < speed * wall ? -b / a : never;
     const double root = std::sqrt(square);
     return b < 0 ? (root - b) / a : (reach - distance) * (reach + distance) / (b + root);
@@ -75,7 +75,7 @@ Turns turns_of(const Parabola& flight) {
     return turns;
 }
 
-/// The time of contact with the outer face in [begin, end], where the distance falls; or `never`.
+/// The time of contact with the outer face in [begin, end], while the distance falls; or `never`.
 double contact_while_falling(Parabola flight, double outer, double wall, double begin, double end) {
     flight.reach = outer;
     if (flight.gap(begin).value <= 0) return flight.gap(begin).value + outer < wall ? never : begin;
@@ -83,7 +83,7 @@ double contact_while_falling(Parabola flight, double outer, double wall, double 
     return root_between(begin, end, false, [&flight](double s) { return flight.gap(s); });
 }
 
-/// Like contact_while_falling, for the inner face and a growing distance; `end` may be `never`.
+/// Like contact_while_falling, for the inner face and a rising distance; `end` may be `never`.
 double contact_while_rising(Parabola flight, double inner, double wall, double begin, double end) {
     flight.reach = inner;
     if (!(inner > 0)) return never;
@@ -103,7 +103,7 @@ double arc_contact(const ArcFlight& flight, const DiscSize& size, double arc_rad
         return span.holds(x, y, std::sqrt(x * x + y * y));
     };
     const auto [dx, dy, wx, wy] = flight;
-    // A disc whose centre is inside the arc overlaps the outer face by over a radius: no contact.
+    // If the disc's centre is inside the arc, an overlap with the outer face is not a contact.
     const double reach = arc_radius + size.radius;
     const double in = growing_contact_delay(-dx, -dy, -wx, -wy, reach, size.rate_of(reach),
                                             size.radius);

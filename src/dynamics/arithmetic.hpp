@@ -21,7 +21,7 @@ class StableArithmetic {
 public:
     using Real = double;
     using State = const DiscState&;
-    // True if states are rounded and contacts may be missed
+    // True for the accuracy study, in which states are rounded and contacts may be missed
     static constexpr bool is_for_study = false;
     static constexpr double cascade_interval = 0, time_rounding = 0x1p-50;
 
@@ -34,7 +34,7 @@ public:
     static double tolerance(const Box& box, double diameter) {
         return std::max(1e-12 * diameter, 16 * 0x1p-52 * box.longest());
     }
-    /// Half the largest gap between discs in a contact, caused by the rounding of positions.
+    /// Half the largest gap that the rounding of positions leaves between two discs at a contact.
     static constexpr double slack() { return 0; }
     static constexpr double place_rounding() { return 0; }
     /// Whether overlapping discs collide if they approach each other.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bodies of discs: radius, mass, and how fast the radius grows. They are one part of a dynamics
-// (dynamics.hpp), and are plain data.
+// The bodies of a dynamics (dynamics.hpp) give the radius and the mass of each disc and the rate at
+// which radii grow. They are plain data.
 //
-//   EqualBodies     one radius, the mass 1
-//   SpeciesBodies   a radius and a mass for each species (species.hpp)
+//   EqualBodies     all discs have the same radius, and mass 1
+//   SpeciesBodies   each species has a radius and a mass (species.hpp)
 //   GrowingBodies   one species or several; radii grow at a constant rate, r(t) = r(0)
 //                   (1 + rate t), as in the method of Lubachevsky and Stillinger (J. Stat.
 //                   Phys. 60, 561 (1990)); event-driven method only. Radii follow from the time
-//                   since the scene's start, so states do not contain them. Collisions follow the
-//                   same law as for other discs, with the velocities of surfaces. If the rate is 0,
-//                   an effect may change all radii by one factor at syncs (sync_effect.hpp).
+//                   since the scene's start, so states do not contain them. The law of collisions
+//                   is applied to the velocities of the touching surfaces. If the rate is 0, an
+//                   effect may multiply all radii by the same factor at syncs (sync_effect.hpp).
 #pragma once
 
 #include <concepts>
@@ -26,7 +26,7 @@
 
 namespace carrom {
 
-/// The properties of a disc that a side of the box needs, at a given time.
+/// The properties of a disc at a given time that a collision with a side of the box depends on.
 struct Body {
     double radius = 0, mass = 1;
     double outwards = 0; ///< speed at which the surface moves outwards
@@ -44,18 +44,18 @@ concept Bodies = std::is_trivially_copyable_v<B> &&
                      // If discs collide thousands of times within this many micro-steps, the run
                      // ends as a collision cascade.
                      { B::cascade_interval } -> std::convertible_to<double>;
-                     changing.begin_interval(n);   // then times are relative to micro-step n
+                     changing.begin_interval(n);   // times are then relative to micro-step n
                      changing.look_up_in(species); // uses the radii and masses of this table
                      {
                          bodies.largest()
-                     } -> std::same_as<double>; // the largest radius at the start
+                     } -> std::same_as<double>; // the largest radius at the scene's start
                      { bodies.of(p) } -> std::convertible_to<SizeAndMass>;
                      { bodies.at(p, time) } -> std::same_as<Body>;
                      // the factor by which radii have grown since the scene's start
                      { bodies.size_at(time) } -> std::convertible_to<double>;
                      // time from `time` until the discs touch (pair_contact.hpp)
                      { bodies.delay(by, p, p, met, time, time) } -> std::same_as<double>;
-                     // velocity of the touching surfaces relative to each other
+                     // `met`, but with the relative velocity of the touching surfaces
                      { bodies.surfaces(met, time) } -> std::same_as<Encounter<double>>;
                  };
 
@@ -130,8 +130,8 @@ private:
 class GrowingBodies {
 public:
     static constexpr bool have_species = true, grow = true;
-    /// Growing discs that jam collide more and more often, so the run is ended before it takes
-    /// hours.
+    /// Growing discs that jam collide more and more often. This interval is long, so that the run
+    /// ends before that takes hours.
     static constexpr double cascade_interval = 0x1p-10;
 
     /// `effects` have times in micro-steps.
@@ -141,8 +141,8 @@ public:
     CARROM_DEVICE void begin_interval(std::int64_t n) {
         at_sync_ = size_ * (1 + rate_ * static_cast<double>(n));
     }
-    /// From now on all radii are the scene's radii times `size`. Only for a growth rate of 0, when
-    /// radii change at syncs only.
+    /// Sets all radii to the scene's radii times `size`. Only for a growth rate of 0, so that radii
+    /// change only at syncs.
     void resize(double size) { at_sync_ = size_ = size; }
     void look_up_in(SpeciesView species) { species_ = species; }
     CARROM_DEVICE double largest() const { return radius_; }
@@ -171,8 +171,8 @@ public:
 private:
     double radius_, rate_;
     SpeciesView species_;
-    double at_sync_ = 1; ///< the factor by which radii had grown at the last sync
-    double size_ = 1;    ///< the factor in `at_sync_` that an effect has set at a sync
+    double at_sync_ = 1; ///< factor by which radii had grown from the start to the last sync
+    double size_ = 1;    ///< the part of this factor that an effect has set at a sync
 };
 
 } // namespace carrom

@@ -10,7 +10,8 @@ namespace carrom {
 
 namespace {
 
-/// The duration of a small bounce of a resting disc (`rest_times_`), at most an eighth of a period.
+/// The duration of a small bounce of a resting disc (`rest_times_`): at most an eighth of a period,
+/// or 0 if nothing oscillates.
 double rest_time_at(const Boundary& side, const ContactGuard& guard, double acceleration,
                     double sway, double period, double radius) {
     if (sway != 0)
@@ -71,14 +72,14 @@ Extent Boundaries::extent_of_lines(double time) const {
 Extent Boundaries::walls_between(double begin, double end) const {
     const Extent first = extent_of_lines(begin), last = extent_of_lines(end);
     // A curve deviates from its chord by at most an eighth of (end - begin)^2 times the largest
-    // acceleration, which is the one at the end.
+    // acceleration, which occurs at the end.
     const double eighth = std::pow((end - begin) / fall_.slowing_at(end), 2) / 8;
-    // A disc departs where its centre is a radius beyond an open side. There `first` and
-    // `last` are two radii of the largest disc beyond the side, and are moved back to the side,
-    // where tiny discs depart. After a collision with an oscillating wall a disc is at most as fast
-    // as the wall, which limits its distance from the wall's highest position. If the acceleration
-    // changes, a wall may speed up inwards. A disc hit by the wall then gets at most as far as a
-    // wall under the largest constant acceleration.
+    // A disc departs where its centre is a radius beyond an open side, so `first` and `last` are
+    // two largest radii beyond it. They are moved back to the side, where tiny discs depart. When
+    // an oscillating wall hits a disc, the disc is at most as fast inwards as the wall. This limits
+    // how far the disc, if it flew on, would be from the wall's highest position. If the
+    // acceleration changes, a wall may speed up inwards. A disc hit by the wall then gets at most
+    // as far as a wall under the largest constant acceleration.
     const auto bend = [&](std::size_t side) {
         const Oscillation& wall = oscillations_[side];
         const double pull = sways_along(side) ? 8 * largest_pull_at(side)
@@ -86,9 +87,9 @@ Extent Boundaries::walls_between(double begin, double end) const {
         return pull * eighth + (is_open(side) ? 2 * radius_ : 0) +
                (wall.amplitude() + wall.largest_speed() * (end - begin));
     };
-    // Discs may fall away from a wall that moves in. A disc that the wall has hit may be far from
-    // it at the end, but at most as far as the wall would move at its first velocity, because the
-    // disc was slower than the wall before the collision.
+    // In the frame a wall that moves in may slow down. A disc that it has hit, and that flies on as
+    // if there were no wall, may then be far from it at the end. But it gets at most as far as the
+    // wall would at its first velocity, because the disc was slower than the wall when they met.
     const auto led = [&](std::size_t side) { return wall_velocity(side, begin) * (end - begin); };
     return {std::max({first.x_low, last.x_low, first.x_low + led(0)}) + bend(0),
             std::min({first.x_high, last.x_high, first.x_high + led(1)}) - bend(1),
@@ -96,8 +97,8 @@ Extent Boundaries::walls_between(double begin, double end) const {
             std::min({first.y_high, last.y_high, first.y_high + led(3)}) - bend(3)};
 }
 
-/// With drag a frame and a clock that start at `time` describe the same flight as the present ones,
-/// because F(s + d) - F(s) - F'(s) d = F(d / (1 - c s)). The contact is computed with these.
+/// With drag, a frame and a clock that start at `time` describe the same flight as the present
+/// ones, because F(s + d) - F(s) - F'(s) d = F(d / (1 - c s)). They are used for the contact.
 double Boundaries::delay_of(const Approach& approach, double time) const {
     const auto& [distance, rate, pull] = approach;
     if (drag_ == 0 || pull == 0) return fall_delay(distance, rate, pull);
@@ -107,7 +108,7 @@ double Boundaries::delay_of(const Approach& approach, double time) const {
 
 double Boundaries::delay_to(const DiscState& disc, std::size_t side, const Body& body) const {
     const Approach line = approach(disc, side, body);
-    if (sways_along(side)) [[unlikely]] // no side oscillates in this case
+    if (sways_along(side)) [[unlikely]] // then no side oscillates
         return fall_.sway().contact_delay(side / 2, sign_of(side), line.distance, line.rate,
                                           line.pull, disc.tau);
     if (!oscillations_[side].is_on()) [[likely]]
@@ -135,7 +136,7 @@ bool Boundaries::may_meet(const DiscState& disc, double time, double margin,
         auto [distance, rate, pull] = approach(disc, side, body);
         const double towards = sways_along(side) ? -largest_pull_at(side) : std::min(pull, 0.0);
         const bool oscillates = oscillations_[side].is_on();
-        // Distance to the wall's innermost position, which the wall may reach soon
+        // Use the distance to the innermost position that the wall can reach.
         if (oscillates) [[unlikely]] {
             distance -= oscillations_[side].amplitude();
             rate = std::min(rate, 0.0);
@@ -197,14 +198,14 @@ Loss Boundaries::rebound(DiscState& disc, std::size_t side, double since, double
                  wall = oscillates ? oscillating_velocity(side, time) : wall_velocity(side, time);
     const auto& [radius, mass, outwards] = body;
     const auto& [restitution, rubbing] = surfaces_[side].of(disc.id);
-    // A disc that grows bounces as from a wall that moves in at the speed of the disc's surface.
+    // A disc that grows bounces as if the wall moved inwards at the speed `outwards`.
     const double closing = std::fabs(sign * (wall - normal) + outwards);
     const bool is_guarded = guard_.holds_at_wall(since, closing, radius);
     double away = outwards + (is_guarded ? 1 : restitution) * closing;
     if (sides_[side].kind == BoundaryKind::thermal) {
         // The normal velocity v of discs that leave a wall of temperature T has the probability
-        // density v / T exp(-v^2 / 2 T) for a mass of 1; the other component has the normal
-        // distribution. All images of a disc draw the same numbers.
+        // density v / T exp(-v^2 / (2 T)) for a mass of 1; the other component is normally
+        // distributed. All images of a disc draw the same numbers.
         const std::uint64_t n_before = disc.wall_collisions;
         DiscRandom random(thermal_seed_, Purpose::thermal_wall, disc.id,
                           4 * n_before + drawn_side(side));

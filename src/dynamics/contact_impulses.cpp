@@ -14,13 +14,15 @@ namespace {
 /// (over-relaxation), so that forces spread through a heap in fewer sweeps. With friction, sweeps
 /// with a larger factor do not converge.
 constexpr double relaxation = 1.3;
-/// Sweeps end when contact velocities change by at most this share of g times the sync interval.
+/// Sweeps end when one of them changes no contact's velocity by more than this fraction of g times
+/// the sync interval.
 constexpr double small_change = 0.005;
-/// The largest number of sweeps for n connected contacts is this plus the square root of n. A sync
-/// may end before the solution is reached, because the next sync continues from its impulses.
+/// The largest number of sweeps for n connected contacts is this plus the square root of n. Sweeps
+/// may end before the solution is reached, because the next sync continues from their result.
 constexpr double sweeps_at_most = 20;
-/// The same number for flows (may_flow_on). There contacts change from sync to sync, so the last
-/// impulses are a poor start, and collisions due to wrong impulses take longer than more sweeps.
+/// The same number for discs that may flow for ever (may_flow_on). In a flow the contacts change
+/// from sync to sync, so the previous impulses are a poor start, and the collisions that inaccurate
+/// impulses would cause take more time than additional sweeps.
 constexpr double sweeps_of_flow = 400;
 
 } // namespace
@@ -30,7 +32,8 @@ bool may_flow_on(const Effects& effects) {
            (effects.acceleration().y != 0 && effects.is_periodic_y());
 }
 
-/// A body with its mean velocity until the next sync; `turning` is the spin times the radius.
+/// A disc, or all fixed bodies, with the mean velocity until the next sync; `turning` is the spin
+/// times the radius.
 struct ContactImpulses::Body {
     double vx = 0, vy = 0, turning = 0;
     double share = 0; ///< inverse mass; 0 for fixed bodies
@@ -39,11 +42,11 @@ struct ContactImpulses::Body {
 struct ContactImpulses::Contact {
     std::uint32_t a = 0, b = 0; ///< indices of bodies; for a fixed body b is the last index
     std::uint32_t part = 0;
-    std::int64_t body = -1; ///< number of the fixed body, as LastingContact::body
+    std::int64_t body = -1; ///< number of the wall or fixed body, as in LastingContact
     double nx = 0, ny = 0;
     double friction = 0, velocity = 0;
     double approach = 0; ///< the largest allowed speed of approach
-    double mass = 0;     ///< effective mass: 1 over the sum of both inverse masses
+    double mass = 0;     ///< reduced mass of the two bodies
     double height = 0;
     double distance = 0;
     double normal = 0, tangential = 0; ///< impulses on body b
@@ -148,7 +151,7 @@ std::vector<KeptImpulse> ContactImpulses::kept_of(std::span<const Contact> conta
     return kept;
 }
 
-/// Does not change the bits of discs without impulses.
+/// Discs without impulses keep their velocities and spins, bit for bit.
 void ContactImpulses::set_velocities(std::span<const Contact> contacts,
                                      std::span<const Body> bodies,
                                      std::span<HeapDisc> discs) const {
@@ -265,7 +268,8 @@ ContactImpulses::Change ContactImpulses::change_of(const Contact& contact,
     return change;
 }
 
-/// Impulses that are already correct do not change, so that a heap at rest repeats its state.
+/// Changes nothing if the impulses are already accurate, so that a heap at rest repeats its state.
+/// Returns the number of sweeps.
 int ContactImpulses::sweep(std::span<Contact> part, std::vector<Body>& bodies) const {
     for (const Contact& contact : part) give(contact, {contact.normal, contact.tangential}, bodies);
     const double small = small_change * pull_;

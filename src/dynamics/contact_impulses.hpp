@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact dynamics at a sync: impulses that keep slow discs from colliding until the next sync.
 //
-// Between two syncs, a time T apart, a disc falls by g T^2 / 2. A disc that lies on others would
-// collide again and again. Instead it gets at the sync the impulse that its supports give it in the
-// time T, as in the time-stepping scheme of contact dynamics (Moreau 1988; Jean, Comput. Methods
-// Appl. Mech. Eng. 177, 235 (1999)). With w = v + g T / 2, the mean velocity until the next sync,
-// the impulses P at the contacts are such that
+// Between two syncs, a time T apart, a disc falls by g T^2 / 2, so a disc that lies on others would
+// collide with them again and again. Instead it gets, at the sync, the impulse that its supports
+// give it during the time T, as in the time-stepping scheme of contact dynamics (Moreau 1988; Jean,
+// Comput. Methods Appl. Mech. Eng. 177, 235 (1999)). With w = v + g T / 2, the mean velocity until
+// the next sync, the impulses P at the contacts satisfy
 //
 //   gap + T w_n >= rest gap,   P_n >= 0,   with equality in at least one of the two;
 //   |P_t| <= mu P_n, directed against the slip
 //
-// A disc of a heap then has w = 0: it flies up by g T^2 / 8, the rest gap, and is back at the next
-// sync. All discs of the heap move together, so they do not collide and cost nothing. Pairs that
-// approach faster than `lasting_speed` (effects.hpp) are no lasting contacts, and collide. Pairs
-// with inaccurate impulses collide, too, so that such an impulse never makes an overlap.
+// A disc at rest in a heap then has w = 0: it flies up by g T^2 / 8, the rest gap, and is back at
+// the next sync. All discs of the heap move together, so they do not collide and need no computing
+// time. Pairs that approach faster than `lasting_speed` (effects.hpp) have no lasting contact; they
+// collide. Pairs whose impulse is inaccurate may also collide, so an inaccurate impulse never
+// causes an overlap.
 //
-// Gauss-Seidel sweeps with over-relaxation go over the contacts from the lowest up. They end when
-// impulses have converged, or after the largest number of sweeps. Then discs in contact whose w is
-// below `least_motion` times g T stop (w = 0), so that a heap at rest repeats its state bit by bit.
-// The result is a function of the discs in the order of ids, so all ranks have the same bits. Cost:
-// some 10 ns for each contact and sweep.
+// Gauss-Seidel sweeps with over-relaxation visit the contacts from the lowest to the highest. They
+// end when the impulses have converged, or after a maximum number of sweeps. Then discs in contact
+// whose w is below `least_motion` times g T are stopped (w = 0), so that a heap at rest repeats its
+// state bit for bit. The result depends only on the discs in order of id, so all ranks get the same
+// bits. Cost: about 10 ns per contact and sweep.
 #pragma once
 
 #include <array>
@@ -34,11 +35,11 @@
 
 namespace carrom {
 
-/// Whether discs fall along a periodic axis, so that they may flow for ever.
+/// True if discs fall along a periodic axis. They may then flow for ever.
 bool may_flow_on(const Effects& effects);
 
-/// The impulse of a contact, from which the solution at the next sync begins. `b` is a disc's id,
-/// or negative for walls and fixed bodies.
+/// The impulse of a contact of disc `a`, from which the solution at the next sync starts. `b` is
+/// the other disc's id, or negative for a wall or a fixed body.
 struct KeptImpulse {
     DiscId a = 0;
     std::int64_t b = 0;
@@ -49,7 +50,7 @@ struct KeptImpulse {
 
 struct LastingForces {
     std::vector<PairImpulse> pairs;
-    std::vector<WallImpulse> walls; ///< impulses of the four sides, then of rows of fixed bodies
+    std::vector<WallImpulse> walls; ///< impulses of the four sides, then of each fixed body's row
     int n_sweeps = 0;               ///< largest number of sweeps that a connected component needed
 };
 
@@ -61,8 +62,8 @@ public:
     ContactImpulses(const Box& box, const Effects& effects, const SpeciesTable& species,
                     double interval);
 
-    /// Gives new velocities and spins to `discs`, which are in the order of ids. `kept` are the
-    /// impulses of the last sync, which this function replaces by the new ones.
+    /// Sets new velocities and spins of `discs`, which are in order of id. `kept` contains the
+    /// impulses of the previous sync; this function replaces them by the new ones.
     LastingForces act(std::span<HeapDisc> discs, std::vector<KeptImpulse>& kept) const;
 
 private:
@@ -73,7 +74,8 @@ private:
         double normal = 0, along = 0;
     };
 
-    /// The impulses of contacts that press; `discs` hold the velocities before the impulses.
+    /// The impulses of contacts whose normal impulse is positive. `discs` have the velocities
+    /// before the impulses, and `bodies` have the mean velocities until the next sync.
     LastingForces forces_of(std::span<const Contact> contacts, std::span<const HeapDisc> discs,
                             std::span<const Body> bodies) const;
     void add_fixed_body(WallImpulse& wall, const Contact& contact, const HeapDisc& disc,
@@ -94,13 +96,14 @@ private:
     LastingContactFinder finder_;
     Effects effects_;
     SpeciesTable species_;
-    std::vector<BodyRow> rows_;                 ///< rows of fixed bodies
-    std::vector<std::uint32_t> rows_of_pieces_; ///< row in `rows_` of each piece of a body
+    std::vector<BodyRow> rows_; ///< rows of the scene's fixed bodies
+    /// For each piece of a fixed body, the index of its row in `rows_`
+    std::vector<std::uint32_t> rows_of_pieces_;
     double interval_, pull_;
-    double fall_x_, fall_y_; ///< speed gained in half a sync interval, g T / 2
+    double fall_x_, fall_y_; ///< velocity gained in half a sync interval, g T / 2
     double rest_gap_;
-    double turning_; ///< 1 over the moment of inertia in m r^2; 0 where discs do not turn
-    double sweeps_;  ///< largest number of sweeps, without the term for the number of contacts
+    double turning_; ///< m r^2 divided by the moment of inertia; 0 if discs do not turn
+    double sweeps_;  ///< maximum number of sweeps, without the term for the number of contacts
 };
 
 } // namespace carrom

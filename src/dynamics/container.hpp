@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boxes that are not rectangles. Discs move inside a closed line of arcs and segments, which are
-// fixed bodies like the ones in a scene's lists. The rectangle around the line still defines
-// strips, cells and outputs.
+// fixed bodies like those in a scene's lists. The strips, cells and outputs are still those of the
+// rectangle around the line.
 //
 //   round      the largest circle in a square
-//   stadium    two halves of a circle, joined by segments along the longer side
+//   stadium    two half circles, joined by two segments along the longer side
 //
 // The line is about half a billionth of the box's shorter edge away from the sides, so that discs
-// meet it before the sides, despite any rounding.
+// meet the line before the sides, in spite of rounding.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ public:
 
     bool is_rectangle() const { return shape_ == BoxShape::rectangle; }
     double area() const;
-    /// Distance by which a position is outside of the line; negative inside. Not for rectangles.
+    /// How far a position is outside the line; negative inside. Not defined for rectangles.
     double outside(double x, double y) const;
     /// The arcs, in counterclockwise order.
     std::vector<Arc> arcs() const;
@@ -48,33 +48,34 @@ std::vector<Segment> edges_of(const Polygon& polygon);
 std::vector<Segment> all_segments(const FixedBodyList& fixed_bodies, const Box& box);
 /// The scene's arcs, then the arcs of the box's shape.
 std::vector<Arc> all_arcs(const FixedBodyList& fixed_bodies, const Box& box);
-/// The area of the region in which discs move, fixed bodies inside it included.
+/// The area of the region in which discs move, including the area of fixed bodies inside it.
 double area_of(const FixedBodyList& fixed_bodies, const Box& box);
 
-/// A row of the scene's lists of fixed bodies, or the wall of the box's shape.
+/// One fixed body as a scene lists it, or the wall of a box that is not a rectangle.
 struct BodyRow {
     std::string_view kind;    ///< "fixed disc", "segment", "polygon", "arc", or Container::name()
-    std::uint32_t number = 0; ///< place in its list, from 1 on; 0 for the box's wall
+    std::uint32_t number = 0; ///< position in its list, counted from 1; 0 for the box's wall
     double x = 0, y = 0;      ///< its centre, or the mean of its corners if it has no centre
-    double length = 0;        ///< length of its line; two faces of a segment or an arc count once
+    double length = 0;        ///< length of its outline; the two faces of a line count once
 
     std::string name() const; ///< name for messages, such as "fixed disc 3" or "the round wall"
 };
 /// Rows of all fixed bodies: discs first, then segments, polygons, arcs and the wall.
 std::vector<BodyRow> rows_of(const FixedBodyList& fixed_bodies, const Box& box);
-/// The row in `rows_of` of each fixed disc, then of each of `all_segments`, then of each of
-/// `all_arcs`.
+/// The index in `rows_of` of each fixed disc, then of the row that each element of `all_segments`
+/// belongs to, then the same for `all_arcs`.
 std::vector<std::uint32_t> rows_of_pieces(const FixedBodyList& fixed_bodies, const Box& box);
 
-/// The point of an arc at an angle in degrees. Its bits are the same on every machine.
+/// A point of an arc, or a unit vector, at an angle in degrees. Its bits are the same on every
+/// machine.
 struct PointOfArc {
     double x = 0, y = 0;
 };
 PointOfArc direction_at(double degrees);
 PointOfArc point_of(const Arc& arc, double degrees);
 ArcSpan span_of(const Arc& arc);
-/// Chords along the arc, none longer than `longest` (but at most 65536 chords), for searches that
-/// need no exact contacts.
+/// Chords along the arc, each at most `longest` long unless that takes more than 65536 chords. For
+/// searches that need no exact contacts.
 std::vector<Segment> chords_of(const Arc& arc, double longest);
 
 } // namespace carrom

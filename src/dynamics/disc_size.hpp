@@ -9,7 +9,7 @@ struct DiscSize {
     double radius = 0, rate = 0;
 
     double after(double delay) const { return radius + rate * delay; }
-    /// The rate at which a distance `reach` grows with the disc, relative to `reach`.
+    /// The growth rate of `reach`, a distance that grows as fast as the radius, divided by `reach`.
     double rate_of(double reach) const { return rate == 0 ? 0 : rate / reach; }
 };
 

@@ -18,8 +18,8 @@ double short_integral(double z) {
 /// Enough halvings to bring the product of the two largest doubles below 1/2
 constexpr int most_halvings = 2100;
 
-/// Halves a time until the series converges, and gives the clock and the slowing at the halved
-/// time. If the time or the rate is infinite, the results are NaN.
+/// Halves a time until the series converges, and computes `clock` and `slowing` at the halved time.
+/// If the time or the rate is infinite, the results are NaN.
 struct Halving {
     Halving(double rate, double time) {
         for (; rate * time > 0.5 && count < most_halvings; time /= 2) ++count;

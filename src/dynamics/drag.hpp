@@ -3,7 +3,8 @@
 // = (1 - exp(-c t)) / c. In the clock s all discs fly straight at constant speed, so everything
 // except the clock is exactly as without drag. For discs that fall see falling_frame.hpp.
 //
-// The code uses only + - * /, accurate to a few ulps, so bits are the same on every machine.
+// Except for time_of_drag_clock, the code uses only + - * /, so its bits are the same on every
+// machine. Results are accurate to a few ulps.
 #pragma once
 
 namespace carrom {

@@ -4,19 +4,20 @@
 //        space (space.hpp)         which image of a disc another disc meets, and where it is
 //        bodies (bodies.hpp)       radius, mass, speed of the surface
 //        law (law.hpp)             how a collision changes velocities and spins
-//      + arithmetic                precision and formula of contacts (arithmetic.hpp)
+//      + arithmetic                precision, and formula of contacts (arithmetic.hpp)
 //        sides, fixed bodies,
 //        flight                    walls, fixed bodies, and the frame of flights (surroundings.hpp)
 //
-// Each part is a value with its own header; spaces and bodies have a concept there. The code that
-// uses the first four parts is in motion.hpp; the code for walls and fixed bodies is here. Kernels
-// take a dynamics as a template argument. Choices for each pair are template parameters and all
-// others are made at run time, so that few combinations are compiled (all_dynamics.hpp).
+// Each part is a class with its own header; the headers of spaces and bodies also define a concept.
+// The code that uses the first four parts is in motion.hpp; the code for walls and fixed bodies is
+// here. Kernels take a dynamics as a template argument. Choices that would otherwise be made for
+// each pair are template parameters. All others are made at run time, so that few combinations are
+// compiled (all_dynamics.hpp).
 //
 // Lengths are in the scene's unit. Times are micro-steps since the last sync, on the dynamics' own
-// clock. Positions and velocities are in the dynamics' own frame. Results depend on the stored
-// states alone, so all ranks get the same bits. If the parameters of an effect switch it off, the
-// bits are those of plain dynamics.
+// clock. Positions and velocities are in the dynamics' own frame. Results depend only on the stored
+// states, so all ranks get the same bits. If the parameters of an effect switch it off, the bits
+// are those of plain dynamics.
 #pragma once
 
 #include <algorithm>
@@ -61,10 +62,10 @@ public:
                    SpeciesTable(effects.species, Arithmetic::rounded(radius), effects.swap.is_on()),
                    PairTable(effects.contact)) {}
 
-    /// The part of the dynamics that runs in the kernels of a GPU.
+    /// The part of the dynamics that kernels on a GPU use.
     const Base& motion() const { return *this; }
 
-    /// Starts an interval: from now on times are relative to micro-step `n` of the scene.
+    /// Starts a sync interval: from now on times are relative to micro-step `n` of the scene.
     void begin_interval(std::int64_t n) {
         space_.begin_interval(n);
         bodies_.begin_interval(n);
@@ -72,14 +73,14 @@ public:
         flight_.begin_interval(static_cast<double>(n));
     }
 
-    /// From now on all radii are the scene's radii times `size`. Only for bodies that can grow, in
-    /// a scene with a growth rate of 0.
+    /// Sets all radii to the scene's radii times `size`. Only for bodies that can grow, in a scene
+    /// with a growth rate of 0.
     void resize(double size) {
         if constexpr (OfBodies::grow) bodies_.resize(size);
     }
 
-    /// Gives the box other sides. Only for bodies that can grow, in a scene whose sides are all
-    /// periodic.
+    /// Changes the lengths of the box's sides. Only for bodies that can grow, in a scene whose
+    /// sides are all periodic.
     void reshape([[maybe_unused]] const Box& box) {
         if constexpr (OfBodies::grow) Base::reshape(box);
     }
@@ -92,7 +93,7 @@ public:
     bool has_open_sides() const { return may_lose_discs && sides_.are_any_open(); }
     const SpeciesTable& species_table() const { return species_; }
 
-    // Clock and frame, in which discs fly straight. Times are on the clock.
+    // The clock and the frame in which discs fly straight. `time` is always on this clock.
 
     double clock_at(double micro_steps) const { return flight_.clock_at(micro_steps); }
     double micro_steps_at(double clock) const { return flight_.micro_steps_at(clock); }
@@ -103,8 +104,8 @@ public:
     void restart_frame(DiscState& disc, double time) const { flight_.restart(disc, time); }
     double jump_at(Axis axis, double time) const { return flight_.jump_at(axis, time); }
     double speed_gained_at(double time) const { return flight_.speed_gained_at(time); }
-    /// See engine/stress_sums.hpp. Where images move, kinetic stress is relative to the flow and
-    /// changes in flight, so it is sampled at syncs instead, and this integral is 0.
+    /// See engine/stress_sums.hpp. Under shear, kinetic stress is relative to the flow and changes
+    /// during flights. It is sampled at syncs instead, and this integral is 0.
     FlightIntegral flight_integral_at(double time) const {
         if constexpr (has_moving_images) return {};
         return flight_.flight_integral_at(time);
@@ -116,20 +117,19 @@ public:
     // Sides. Here and below, `spin` is null if discs do not turn.
 
     Extent extent_at(double time) const { return sides_.extent_at(time); } ///< walls' positions
-    /// A disc that was inside the walls at some time in [begin, end], and is within these bounds at
-    /// the end, has met no wall from that time on.
+    /// A disc that was inside the walls at some time in [begin, end] has met no wall since then if
+    /// its straight flight, as if there were no walls, ends within these bounds.
     Extent walls_between(double begin, double end) const {
         return sides_.walls_between(begin, end);
     }
-    /// The time at which the disc meets a side of this axis, or `never`.
+    /// The time at which the disc meets the low or the high side of this axis, or `never`.
     double wall_time(const DiscState& disc, Axis axis) const {
         return sides_.wall_time(disc, axis, bodies_.at(disc, disc.tau));
     }
     /// False means that the disc meets no wall before `time`; true means that it may meet one.
     bool may_meet_wall(const DiscState& disc, double time) const {
         const Body body = bodies_.at(disc, disc.tau);
-        // The product allows for the rounding of times: within the rounding error of a time a fast
-        // disc flies some distance.
+        // The product is the distance that a fast disc flies within the rounding error of a time.
         const double fastest = std::max(std::fabs(disc.vx), std::fabs(disc.vy)) +
                                (speed_gained_at(time) + body.outwards);
         const double margin = (tolerance_ + arithmetic_.place_rounding()) +
@@ -146,13 +146,13 @@ public:
 
     // Fixed bodies.
 
-    /// The first fixed body that the disc meets.
+    /// The first fixed body that the disc meets within these times.
     BodyContact first_fixed_body(const DiscState& disc, const ContactTimes& times) const {
         return disc.has_departed() ? BodyContact{}
                                    : fixed_bodies_->first_contact(disc, size_of(disc), times);
     }
-    /// Whether fixed bodies block neither the states `from` and `to` nor the flight between them,
-    /// which takes `time` from the start of this interval.
+    /// True if the disc overlaps no fixed body in the states `from` and `to`, and meets none on its
+    /// flight from the start of this interval to `time`.
     bool is_way_free(const DiscState& from, const DiscState& to, double time) const {
         if (!has_fixed_bodies()) return true;
         const DiscSize size = size_of(from);
@@ -201,7 +201,7 @@ private:
     PairTable pairs_;      ///< owns the table that the law reads
     typename Surroundings::Sides sides_;
     typename Surroundings::Flight flight_;
-    std::shared_ptr<const FixedBodies> fixed_bodies_; ///< null if there are none; copies share it
+    std::shared_ptr<const FixedBodies> fixed_bodies_; ///< null if there are none; shared by copies
 };
 
 } // namespace carrom

@@ -35,8 +35,8 @@ inline bool is_same_number(double a, double b) {
     return a == b || (std::isnan(a) && std::isnan(b));
 }
 
-/// A row of `effects.contact.pairs`: coefficients for contacts between discs of two rows of
-/// `discs.species`, counted from 1, in either order. NaN: the coefficient for all pairs is used.
+/// A row of `effects.contact.pairs`: the coefficients for contacts of discs of two rows of
+/// `discs.species`, counted from 1, in either order. NaN stands for the coefficient for all pairs.
 struct ContactPair {
     double first = 1, second = 1;
     double restitution = 1, tangential_restitution = -1, friction = 0;
@@ -48,8 +48,8 @@ struct ContactPair {
                is_same_number(a.friction, b.friction);
     }
 };
-/// A row of `contacts` of a side or of the fixed bodies: coefficients for discs of one row of
-/// `discs.species`, counted from 1. NaN: the surface's coefficient for all discs is used.
+/// A row of `contacts` of a side or of the fixed bodies: the coefficients for discs of one row of
+/// `discs.species`, counted from 1. NaN stands for the surface's coefficient for all discs.
 struct SurfaceContact {
     double species = 1;
     double restitution = 1, tangential_restitution = -1, friction = 0;
@@ -60,7 +60,7 @@ struct SurfaceContact {
                is_same_number(a.friction, b.friction);
     }
 };
-/// Row `row`, from 0, of `discs.species` has the ids from the previous entry's `end` to `end` - 1.
+/// Discs of row `row` (from 0) of `discs.species` have ids from the previous `end` to `end` - 1.
 struct SpeciesRow {
     DiscId end = 0;
     std::size_t row = 0;
@@ -71,20 +71,20 @@ struct SpeciesRow {
 struct ContactEffect {
     ContactKind kind = ContactKind::elastic;
     double restitution = 1;  ///< share of the normal relative velocity that remains, 0 to 1
-    double contact_time = 0; ///< for this time after a collision a disc collides elastically; 0: a
-                             ///< length is used instead (contact_guard.hpp); for the event-driven
-                             ///< method only
+    double contact_time = 0; ///< a disc collides elastically for this time after a collision; if
+                             ///< 0, a length is the limit instead (contact_guard.hpp); for the
+                             ///< event-driven method only
     // For rough discs:
-    /// Minus the share of the surfaces' relative velocity that remains where they stick, -1
+    /// e_t: where surfaces stick, a collision multiplies their relative velocity by -e_t; from -1
     /// (smooth) to 1
     double tangential_restitution = -1;
     double friction =
         std::numeric_limits<double>::infinity(); ///< coefficient of Coulomb's friction: the
                                                  ///< tangential impulse is at most this times the
                                                  ///< normal one
-    double inertia = 0.5;             ///< moment of inertia in m r^2; 0.5 for a uniform disc
-    std::vector<ContactPair> pairs{}; ///< rows of pairs with own coefficients (pair_table.hpp)
-    /// Ids of each row of `discs.species`, ascending; empty without that key
+    double inertia = 0.5;             ///< moment of inertia over m r^2; 0.5 for a uniform disc
+    std::vector<ContactPair> pairs{}; ///< pairs with coefficients of their own (pair_table.hpp)
+    /// Ids of each row of `discs.species`, in ascending order; empty if a scene has no such key
     std::vector<SpeciesRow> rows{};
 
     bool is_on() const { return kind != ContactKind::elastic; }
@@ -103,8 +103,8 @@ struct Surface {
     /// Tangential restitution of the contact, as between rough discs; -1 is a smooth surface
     double tangential_restitution = -1;
     double friction = std::numeric_limits<double>::infinity();
-    double velocity = 0; ///< velocity of the surface: of sides (thermal ones, too) along +x or +y,
-                         ///< of fixed bodies counterclockwise, of arcs around their centres
+    double velocity = 0; ///< velocity of the surface: for sides (also thermal ones) along +x or +y;
+                         ///< for fixed bodies counterclockwise; for arcs around their centres
 
     /// Whether the surface can change spins or tangential velocities.
     bool rubs() const { return tangential_restitution != -1 && friction != 0; }
@@ -113,8 +113,8 @@ struct Surface {
 
 /// Discs that come in through an open side (scene/effects/inlets.cpp).
 struct Inlet {
-    double rate = 0;          ///< mean number of discs that come in per time
-    double temperature = 0;   ///< kT of the gas outside, a velocity squared, for masses of 1
+    double rate = 0;          ///< mean number of discs that come in per unit of time
+    double temperature = 0;   ///< kT of the gas outside, in units of mass 1 times velocity squared
     std::int64_t species = 0; ///< a row of `discs.species`, counted from 1; 0 means any row
 
     bool is_on() const { return rate > 0; }
@@ -124,7 +124,7 @@ struct Inlet {
 struct Boundary {
     BoundaryKind kind = BoundaryKind::wall;
     double restitution = 1; ///< restitution of walls, also of moving and oscillating ones
-    /// Temperature of thermal walls: kT, a velocity squared, for masses of 1
+    /// Temperature of thermal walls: kT, in units of mass 1 times velocity squared
     double temperature = 0;
     double speed = 0; ///< velocity of moving walls, along +x or +y
     // For oscillating walls (oscillation.hpp):
@@ -144,7 +144,7 @@ struct Boundary {
     friend bool operator==(const Boundary&, const Boundary&) = default;
 };
 
-/// The order of Effects::boundaries: the low and the high side of x, then of y.
+/// Names in the order of Effects::boundaries: the low and the high side of x, then of y.
 inline constexpr std::array<const char*, 4> boundary_names = {"left", "right", "bottom", "top"};
 
 /// A uniform acceleration, such as gravity.
@@ -159,7 +159,7 @@ struct Acceleration {
     bool is_steady() const { return x != 0 || y != 0; }
     bool sways() const { return amplitude_x != 0 || amplitude_y != 0; }
     bool is_on() const { return is_steady() || sways(); }
-    /// The largest magnitudes along x and y.
+    /// Upper bounds, for all times, of the magnitudes along x and y.
     double largest_x() const { return std::fabs(x) + std::fabs(amplitude_x); }
     double largest_y() const { return std::fabs(y) + std::fabs(amplitude_y); }
     double largest() const { return std::hypot(largest_x(), largest_y()); }
@@ -179,8 +179,8 @@ struct Segment {
     friend bool operator==(const Segment&, const Segment&) = default;
 };
 
-/// A part of a circle, without thickness: counterclockwise from one angle to another, in degrees
-/// from the direction of +x. By default the whole circle.
+/// A part of a circle, without thickness, from the angle `from` counterclockwise to the angle `to`,
+/// in degrees from the direction of +x. The default is the whole circle.
 struct Arc {
     double x = 0, y = 0, radius = 0;
     double from = 0, to = 360;
@@ -195,7 +195,7 @@ using Polygon = std::vector<double>;
 /// The shape of the region in which discs move (container.hpp).
 enum class BoxShape { rectangle, round, stadium };
 
-/// Contacts with surfaces that depend on the species of the disc (surface_table.hpp).
+/// Coefficients of surfaces that depend on the species of the disc (surface_table.hpp).
 struct SurfaceContacts {
     /// The sides in the order of Effects::boundaries, then the fixed bodies
     static constexpr std::size_t n_surfaces = 5, fixed_bodies = 4;
@@ -227,18 +227,18 @@ struct FixedBodyList {
     friend bool operator==(const FixedBodyList&, const FixedBodyList&) = default;
 };
 
-/// How discs are kept in motion, at syncs (scene/effects/thermostat.cpp). Time unit: see Effects.
+/// How a thermostat acts on discs at syncs (scene/effects/thermostat.cpp). Time unit: see Effects.
 enum class ThermostatKind { none, kicks, andersen, langevin, rescale };
 
 struct Thermostat {
     ThermostatKind kind = ThermostatKind::none;
     double strength = 0;    ///< strength xi^2 of the random kicks, a velocity squared per time
-    double rate = 0;        ///< rate of new velocities (andersen), or of friction (langevin)
-    double temperature = 0; ///< kT, a velocity squared, for masses of 1
+    double rate = 0;        ///< rate of new velocities (andersen) or friction rate (langevin)
+    double temperature = 0; ///< kT, in units of mass 1 times velocity squared
     std::uint64_t seed = 3210;
 
     bool is_on() const { return kind != ThermostatKind::none; }
-    /// Whether discs exchange momentum with the bath, as well as energy.
+    /// Whether the thermostat is a bath, with which discs exchange momentum as well as energy.
     bool is_bath() const {
         return kind == ThermostatKind::andersen || kind == ThermostatKind::langevin;
     }
@@ -249,16 +249,16 @@ struct Thermostat {
 /// Discs that propel themselves (scene/effects/activity.cpp). Time unit: see Effects.
 struct Activity {
     double speed = 0; ///< speed of a free disc whose direction does not change
-    double force = 0; ///< instead of a speed: the same force on all discs, whatever their mass
+    double force = 0; ///< used instead of `speed`: the same force on all discs, whatever their mass
     double rotational_diffusion = 0; ///< mean squared change of the angle per time, divided by 2
-    double tumble_rate = 0;          ///< how often per time a disc takes a new random direction
+    double tumble_rate = 0;          ///< rate at which a disc takes a new random direction
     std::uint64_t seed = 3210;
 
     bool is_on() const { return speed != 0 || force != 0; }
     friend bool operator==(const Activity&, const Activity&) = default;
 };
 
-/// Whether a barostat keeps the ratio of the box's sides, or changes each side alone.
+/// Whether a barostat keeps the ratio of the box's sides, or changes each side separately.
 enum class BarostatAxes { together, each };
 
 /// Changes of the volume at syncs (scene/effects/barostat.cpp).
@@ -268,7 +268,7 @@ struct Barostat {
     std::uint64_t seed = 4321;
 
     bool is_on() const { return pressure != 0; }
-    /// The shortest and the longest that a side of the box can become, relative to the scene's box
+    /// The shortest and the longest length that a side can reach, relative to the scene's box.
     double shortest_side() const { return is_on() && axes == BarostatAxes::each ? 0.5 : 1; }
     double longest_side() const { return 1 / shortest_side(); }
     friend bool operator==(const Barostat&, const Barostat&) = default;
@@ -277,15 +277,15 @@ struct Barostat {
 /// Discs that exchange their radii (scene/effects/swap.cpp).
 struct Swaps {
     std::int64_t rounds = 0;     ///< rounds of proposals at each sync
-    std::int64_t until_step = 0; ///< the step at which swaps end; 0: the end of the run
+    std::int64_t until_step = 0; ///< the step at which swaps end; 0 means the end of the run
     std::uint64_t seed = 3210;
 
     bool is_on() const { return rounds != 0; }
     friend bool operator==(const Swaps&, const Swaps&) = default;
 };
 
-/// Numbers of effects that act at syncs only. The file of such an effect declares its keys
-/// (`own_key` in scene/key_members.hpp) and reads the numbers by their names; no other code uses
+/// Values of the keys of effects that act only at syncs. The source file of such an effect declares
+/// its keys (`own_key` in scene/key_members.hpp) and reads their values by name; no other code uses
 /// them.
 class OwnNumbers {
 public:
@@ -325,9 +325,9 @@ struct Effects {
     FixedBodyList fixed_bodies{};
     SurfaceContacts surface_contacts{};
     std::vector<Species>
-        species{};     ///< in the order of ids; empty if all discs have the same radius and mass 1
-    double growth = 0; ///< growth of radii per time, as a share of the radii at the start
-    double shear = 0;  ///< rate at which vx grows with y between sheared sides
+        species{};     ///< in order of id; empty if all discs have the same radius and mass 1
+    double growth = 0; ///< growth rate of radii, relative to the radii at the start
+    double shear = 0;  ///< shear rate: the flow's d(vx)/dy between sheared sides
     /// Pairs that approach more slowly than this have lasting contacts from sync to sync
     /// (contact_impulses.hpp); 0 means none.
     double lasting_speed = 0;
@@ -352,7 +352,7 @@ struct Effects {
     /// Whether all sides are elastic walls at rest that do not rub, for discs of all species.
     bool have_plain_boundaries() const;
     bool have_open_boundaries() const;
-    /// The reader of scenes ensures that opposite sides are periodic together.
+    /// The reader of scenes ensures that two opposite sides are either both periodic or neither is.
     bool is_periodic_x() const { return boundaries[0].is_periodic(); }
     bool is_periodic_y() const { return boundaries[2].is_periodic(); }
     bool are_sheared() const { return boundaries[2].kind == BoundaryKind::sheared; }
@@ -362,13 +362,13 @@ struct Effects {
         return {is_periodic_x() ? box.x : 0, is_periodic_y() ? box.y : 0, 0,
                 are_sheared() ? shear * box.y : 0};
     }
-    /// The mean velocity along x of sheared discs at this height; 0 in other boxes.
+    /// The mean velocity along x at the height `y` of a sheared box; 0 in other boxes.
     double flow_at(double y, const Box& box) const {
         return are_sheared() ? shear * (y - box.y / 2) : 0;
     }
     /// The factor by which radii have grown from the scene's start to `time`.
     double size_at(double time) const { return 1 + growth * time; }
-    /// Restarts growth: radii that have grown by the factor `size` become the radii at the start.
+    /// Adapts the rate to a new start, at which radii have already grown by the factor `size`.
     void begin_at(double size) { growth /= size; }
     bool are_any() const {
         return std::apply([](const auto&... all) { return (is_feature_on(all) || ...); },
@@ -386,7 +386,7 @@ std::string description(const std::vector<Species>& species);
 
 /// Positions of the walls at `time` since the scene's start; `box` is the box at the start.
 Extent extent_at(const Effects& effects, const Box& box, double time);
-/// The mean positions of the walls, moved inwards by `amplitudes_inwards` times their amplitudes.
+/// The mean positions of the walls, each moved inwards by `amplitudes_inwards` amplitudes.
 Extent extent_of_lines(const Effects& effects, const Box& box, double time,
                        double amplitudes_inwards = 0);
 

@@ -11,8 +11,8 @@ namespace carrom {
 
 namespace {
 
-/// Solves (c[i - 1] + 4 c[i] + c[i + 1]) / 6 = f[i] with periodic indices, by the two filters of M.
-/// Unser, A. Aldroubi and M. Eden, IEEE Trans. Signal Process. 41, 821 (1993).
+/// Solves (c[i - 1] + 4 c[i] + c[i + 1]) / 6 = f[i] with periodic indices, by the two recursive
+/// filters of M. Unser, A. Aldroubi and M. Eden, IEEE Trans. Signal Process. 41, 821 (1993).
 std::vector<double> round_coefficients(const std::vector<double>& f) {
     const double pole = std::sqrt(3.0) - 2;
     constexpr std::size_t far = 40; // pole^40 is below 2^-75
@@ -30,8 +30,8 @@ std::vector<double> round_coefficients(const std::vector<double>& f) {
     return c;
 }
 
-/// Solves the same equations on a line whose ends have no curvature, so that c = f there. The
-/// elimination needs no pivots, because the matrix is diagonally dominant.
+/// Solves the same equations for a spline whose second derivative is 0 at both ends, so that c = f
+/// there. The elimination needs no pivots, because the matrix is diagonally dominant.
 std::vector<double> line_coefficients(const std::vector<double>& f) {
     const std::size_t n = f.size();
     std::vector<double> c = f, factor(n, 0.0);

@@ -10,13 +10,13 @@ double falling_contact(double dx, double dy, double wx, double wy, double gx, do
                        double reach) {
     const Parabola flight{dx, dy, wx, wy, gx, gy, reach};
     const auto rate = [&flight](double s) { return flight.rate(s); };
-    double start = 0; // beginning of the present piece of time
-    double fall = 0;  // time since which the distance decreases, if it does
+    double start = 0; // start of the current piece of time
+    double fall = 0;  // if the distance decreases: the time when it began to
     bool falls = flight.rate(0).value < 0;
     const auto [first, second] = flight.bends();
     for (const double bend : {first, second, never}) {
         if (!(bend > start)) continue;
-        if (bend == never && !falls) return never; // the distance increases faster and faster
+        if (bend == never && !falls) return never; // from here on the distance only increases
         const double end = bend == never ? flight.late(start) : bend;
         const bool falls_at_end = bend != never && flight.rate(end).value < 0;
         if (falls != falls_at_end) {

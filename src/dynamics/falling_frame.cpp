@@ -10,9 +10,9 @@ namespace carrom {
 
 namespace {
 
-/// Contacts count only while drag's factor of the velocities, 1 - c s, is at least this.
+/// Contacts count only while 1 - c s, by which drag multiplies velocities, is at least this.
 constexpr double least_slowing = 0.01;
-/// Limit of Newton's steps; four to twelve are needed.
+/// Maximum number of steps of Newton's method; four to twelve are needed.
 constexpr int most_steps = 100;
 
 /// (-log(1 - q) - q) / q^2 for q up to 1/4: with z = q / (2 - q) it is (1 + 2 z (1/3 + z^2/5 +
@@ -36,7 +36,7 @@ double dragged_fall(double rate, double clock) {
 }
 
 double dragged_fall_delay(double distance, double velocity, double pull, double rate) {
-    // Because F(s) >= s^2 / 2, the contact time of the parabola is too late if the disc is pulled
+    // Because F(s) >= s^2 / 2, the contact time for F = s^2 / 2 is too late if the disc is pulled
     // to the wall, and too early if it is pulled away.
     double s = fall_delay(distance, velocity, pull);
     if (pull == 0 || s == 0) return s;
@@ -93,8 +93,8 @@ FlightIntegral FallingFrame::flight_integral_at(double time) const {
 
 namespace {
 
-/// Nodes and weights of Gauss's rule with eight points from -1 to 1. A flight lasts at most an
-/// eighth of a period, for which the rule's error is below the rounding error.
+/// The positive nodes of Gauss's rule with eight points from -1 to 1, and their weights. A flight
+/// lasts at most an eighth of a period, for which the rule's error is below the rounding error.
 constexpr std::array<double, 4> gauss_nodes = {0.1834346424956498, 0.5255324099163290,
                                                0.7966664774136267, 0.9602898564975363},
                                 gauss_weights = {0.3626837833783620, 0.3137066458778873,
@@ -102,8 +102,8 @@ constexpr std::array<double, 4> gauss_nodes = {0.1834346424956498, 0.52553240991
 
 } // namespace
 
-/// `rest_x`, `rest_y` and `more_y` are the triangular Cholesky factor of the integral of (u -
-/// mean)(u - mean)^T, where u is the frame's velocity.
+/// `rest_x`, `rest_y` and `more_y` are the elements of the triangular Cholesky factor of the
+/// integral of (u - mean)(u - mean)^T, where u is the frame's velocity.
 FlightIntegral FallingFrame::swaying_flight_integral_at(double time) const {
     const Frame end = moving_at(time);
     const double mean_x = end.x / time, mean_y = end.y / time;

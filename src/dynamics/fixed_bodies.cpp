@@ -16,12 +16,12 @@ namespace {
 constexpr std::uint32_t n_images = 9;
 
 /// The least ratio of normal to tangential velocity of discs that leave the inner face of an arc,
-/// because a disc along the face collides without end. Energy changes by a share of 1e-12 at most.
+/// as discs along it would collide without end. This changes energies by at most 1e-12 of them.
 constexpr double least_slope = 1e-6;
 
 /// The first time at which a distance with the initial `rate` and a constant acceleration `pull`
-/// falls to 0. If the distance is not positive and the disc is on this side of the body, the result
-/// is when the disc turns back; on the other side the distance must become positive first.
+/// falls to 0. A disc on this side that overlaps the body meets it at once if it approaches, else
+/// when it returns. On the other side the distance must become positive first.
 double fall_delay(double distance, double rate, double pull, bool is_on_side) {
     if (rate < 0) {
         if (!(distance > 0)) return is_on_side ? 0 : never;
@@ -45,7 +45,7 @@ FixedBodies::FixedBodies(const Box& box, double largest_radius, const Effects& e
       largest_radius_(largest_radius), rows_of_bodies_(rows_of(effects.fixed_bodies, box)) {
     add_bodies(effects.fixed_bodies);
     const auto n = static_cast<double>(bodies_.size());
-    // Nearly square cells: about as many as in a square box, more of them along the longer side.
+    // Cells are nearly square. Their total number hardly depends on the shape of the box.
     const double stretch = std::sqrt(box.x / box.y);
     const auto cells = [n](double length, double factor, double period) {
         const double number = std::floor(std::clamp(std::sqrt(2 * n), 4.0, 4096.0) * factor);
@@ -67,7 +67,7 @@ void FixedBodies::add_line(const Segment& segment, double slides) {
     bodies_.push_back({segment.x1, segment.y1, 0});
 }
 
-/// Surfaces at ends of a scene's arcs rest; at ends of the box's arcs `slides` is -1, as for lines.
+/// The ends of a scene's arcs are at rest. The ends of the box's arcs move like its lines.
 void FixedBodies::add_arc(const Arc& arc, bool is_of_box) {
     Body face{arc.x, arc.y, arc.radius};
     face.is_arc = true;
@@ -106,15 +106,15 @@ FixedBodies::Cells FixedBodies::cells_of(const Extent& extent) const {
             rows_.cell_of(extent.y_low - margin_), rows_.cell_of(extent.y_high + margin_)};
 }
 
-/// The cells whose bodies a disc of this radius may touch while its centre is in `extent`. A cell
-/// contains the bodies that discs of the largest radius touch there, and discs may have grown.
+/// The cells whose bodies a disc of this radius may touch while its centre is in `extent`. Cells
+/// list bodies for discs of the largest initial radius; grown discs need a larger extent.
 FixedBodies::Cells FixedBodies::cells_near(const Extent& extent, double radius) const {
     const double more = std::max(radius - largest_radius_, 0.0);
     return cells_of(
         {extent.x_low - more, extent.x_high + more, extent.y_low - more, extent.y_high + more});
 }
 
-/// The positions of centres of discs that touch the body's image.
+/// A rectangle that contains the centres of all discs that touch the body's image.
 Extent FixedBodies::extent_of(const Body& body, double radius, Shift shift) const {
     const double reach = body.radius + radius, x = body.x + shift.x, y = body.y + shift.y;
     const double x_end = x + body.length * body.ux, y_end = y + body.length * body.uy;
@@ -122,8 +122,8 @@ Extent FixedBodies::extent_of(const Body& body, double radius, Shift shift) cons
             std::max(y, y_end) + reach};
 }
 
-/// Returns false for cells that an oblique line or an arc's circle does not touch. Cells at the
-/// border of the box also contain the positions beyond it.
+/// False only if the line, or the circle of an arc, is too far from the cell for a disc there to
+/// touch it. Cells at the border of the box are also used for positions beyond it.
 bool FixedBodies::may_hold(const Body& body, std::int64_t column, std::int64_t row) const {
     const bool is_at_border = std::min(column, row) == 0 || column + 1 == columns_.n ||
                               row + 1 == rows_.n;
@@ -159,7 +159,7 @@ void FixedBodies::sort_into_cells() {
     visit([this, &ends](std::size_t cell, const Entry& entry) { in_cells_[ends[cell]++] = entry; });
 }
 
-/// Calls what(image) for the images of bodies in the cells, perhaps more than once for an image.
+/// Calls what(image) for the images of bodies in the cells; some images may occur repeatedly.
 template <class What> void FixedBodies::visit_cells(const Cells& cells, const What& what) const {
     for (std::int64_t column = cells.first_column; column <= cells.last_column; ++column) {
         const std::int64_t x = columns_.box_of(column);
@@ -189,7 +189,7 @@ std::uint32_t FixedBodies::code_of(const Entry& image, double x, double y) const
     return image.body * n_images + static_cast<std::uint32_t>(3 * (dx + 1) + (dy + 1));
 }
 
-/// The image that belongs to a code, for a disc whose centre is at (x, y) now.
+/// The image with the number `code`, for a disc whose centre is at (x, y).
 FixedBodies::Entry FixedBodies::image_of(std::uint32_t code, double x, double y) const {
     if (!periods_.are_any()) return {code, 0, 0};
     const auto image = static_cast<int>(code % n_images);
@@ -203,7 +203,7 @@ FixedBodies::Entry FixedBodies::image_of(std::uint32_t code, double x, double y)
             static_cast<std::int16_t>(boxes_y)};
 }
 
-/// `dx`, `dy` are relative to the line's beginning; `wx`, `wy` are velocities in the box.
+/// (dx, dy) is the disc's position relative to the line's first end, (wx, wy) its velocity.
 double FixedBodies::line_delay(const Body& line, const DiscSize& size, double dx, double dy,
                                double wx, double wy) const {
     const auto [gx, gy] = pull_;
@@ -221,7 +221,7 @@ double FixedBodies::line_delay(const Body& line, const DiscSize& size, double dx
     return first;
 }
 
-/// The first time at which the distance is not positive and falls. It depends on the state alone.
+/// The time of the next contact with an image of the body. It depends on the stored state alone.
 double FixedBodies::contact_time(const DiscState& disc, const Body& body, const DiscSize& size,
                                  Shift shift) const {
     const bool falls = pull_[0] != 0 || pull_[1] != 0;
@@ -242,8 +242,8 @@ double FixedBodies::contact_time(const DiscState& disc, const Body& body, const 
     return delay < 0 ? never : disc.tau + delay;
 }
 
-/// The part of the box that a flight covers. A parabola deviates from its chord by at most an
-/// eighth of its acceleration times the squared time.
+/// A rectangle that contains the path of the disc's centre. A parabola deviates from its chord by
+/// at most an eighth of its acceleration times the squared time.
 Extent FixedBodies::path_of(const DiscState& disc, double begin, double end) const {
     const double x0 = disc.x_at(begin) + fallen(0, begin), x1 = disc.x_at(end) + fallen(0, end);
     const double y0 = disc.y_at(begin) + fallen(1, begin), y1 = disc.y_at(end) + fallen(1, end);
@@ -253,7 +253,7 @@ Extent FixedBodies::path_of(const DiscState& disc, double begin, double end) con
             std::max(y0, y1) + y_bend};
 }
 
-/// The number of parts of a flight such that the disc moves by at most about a cell in each.
+/// The number of parts of a flight in each of which the disc moves by about one cell at most.
 double FixedBodies::slices_of(const DiscState& disc, double begin, double end) const {
     const auto speed = [&](double v, std::size_t axis) {
         return std::max(std::fabs(v + pull_[axis] * begin), std::fabs(v + pull_[axis] * end));
@@ -330,11 +330,11 @@ Loss FixedBodies::rebound(DiscState& disc, std::uint32_t code, double time, doub
     const double slides = from_body.is_hollow ? -at.slides : at.slides;
     const auto& [restitution, rubbing] = surface_.of(disc.id);
     const double normal = nx * (disc.vx + pull_[0] * time) + ny * (disc.vy + pull_[1] * time);
-    // A disc that grows bounces as from a body that moves at the speed of the disc's surface.
+    // A disc that grows bounces as if the body moved towards it at the speed `outwards`.
     const double closing = std::fabs(outwards - normal);
     const bool is_guarded = guard_.holds_at_wall(since, closing, turning.radius);
     double away = outwards + (is_guarded ? 1 : restitution) * closing;
-    // A disc that is pulled back leaves so fast that its next collision is unguarded, as at walls.
+    // A disc that is pulled back leaves fast enough for its next collision to be unguarded.
     double pull = -(nx * pull_[0] + ny * pull_[1]);
     const auto speed_along = [&] {
         return nx * (disc.vy + pull_[1] * time) - ny * (disc.vx + pull_[0] * time);
@@ -382,7 +382,7 @@ FixedBodies::Overlap FixedBodies::deepest_overlap(double x, double y, double rad
         most = overlap;
         deepest = {overlap, image.body};
     });
-    // Outside of the container a disc overlaps the wall everywhere.
+    // A disc outside the container counts as overlapping the wall.
     const double overlap = container_.is_rectangle() ? -never : container_.outside(x, y) + radius;
     return overlap > most ? Overlap{overlap, first_bodies_.back()} : deepest;
 }

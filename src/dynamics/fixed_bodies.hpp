@@ -4,14 +4,14 @@
 // obstacles of a scene, its frozen discs, and the wall of a box that is not a rectangle
 // (container.hpp).
 //
-// A disc of radius r touches a fixed disc of radius R if their centres are r + R apart (the
-// predicate of pairs; a quartic where discs fall: falling_contact.hpp), a segment if it is r from
-// its line (a quadratic), and an arc from either side (arc_contact.hpp). The radius may grow
-// (growing_contact.hpp), but not where discs fall. The contact is a function of the stored state
-// alone. A grid of cells, built once, holds the bodies. For a flight the cells along its path are
-// searched, up to its first contact. In a periodic box the grid repeats itself, and a body is also
-// in the cells that its images cover. A stored state may be many boxes away: bodies are shifted to
-// it by whole box lengths.
+// A disc of radius r touches a fixed disc of radius R when their centres are r + R apart
+// (pair_contact.hpp, or falling_contact.hpp if discs fall). It touches a segment when its centre is
+// at the distance r from the line, and an arc from either side (arc_contact.hpp). Discs may grow
+// (growing_contact.hpp), but not if they fall. A contact depends only on the stored state. The
+// bodies are sorted once into a grid of cells, and for each flight the cells along its path are
+// searched up to the first contact. In a periodic box the grid repeats itself, and a body is also
+// listed in the cells that its images cover. The position of a stored state may be many boxes away;
+// the bodies are then shifted to it by whole box lengths.
 #pragma once
 
 #include <algorithm>
@@ -58,12 +58,12 @@ struct ContactTimes {
 struct BodyTouch {
     std::uint32_t row = 0; ///< index in `rows_of` (container.hpp)
     double nx = 0, ny = 0; ///< normal that points away from the body
-    double x = 0, y = 0;   ///< position relative to the row's centre
+    double x = 0, y = 0;   ///< point of contact, relative to the centre of the row
 };
 
 class FixedBodies {
 public:
-    /// `effects` have times in micro-steps. `largest_radius` is for discs that have not grown yet.
+    /// `effects` have times in micro-steps; `largest_radius` is that of discs before they grow.
     FixedBodies(const Box& box, double largest_radius, const Effects& effects);
 
     /// The first body that a disc of this size meets within these times. If the disc meets two
@@ -71,9 +71,10 @@ public:
     BodyContact first_contact(const DiscState& disc, const DiscSize& size,
                               const ContactTimes& times) const;
 
-    /// Reflects a disc at `time` from the fixed body with the number `code`, see BodyContact. The
-    /// state is advanced to `time` already; `since` is the time since the disc's last collision.
-    /// The disc grows at the speed `outwards`. Returns the loss of energy for a mass of 1.
+    /// Reflects a disc at `time` from the fixed body with the number `code` (see
+    /// BodyContact::body). The state has already been advanced to `time`; `since` is the time since
+    /// the disc's last collision. The disc's radius grows at the rate `outwards`. Returns the loss
+    /// of energy for a mass of 1.
     Loss rebound(DiscState& disc, std::uint32_t code, double time, double since, double outwards,
                  const Turning& turning) const;
 
@@ -84,7 +85,7 @@ public:
 
     struct Overlap {
         double depth = 0;
-        std::uint32_t body = BodyContact::no_body; ///< its number, for all its images
+        std::uint32_t body = BodyContact::no_body; ///< number of the body itself, not of an image
     };
     /// The body with which a disc of this radius at (x, y) in the box overlaps most, if the overlap
     /// is more than `least`; otherwise, or without bodies, `no_body`.
@@ -92,8 +93,8 @@ public:
     bool do_overlap(double x, double y, double radius) const {
         return are_any() && deepest_overlap(x, y, radius, 0).body != BodyContact::no_body;
     }
-    /// Name for messages, such as "fixed disc 3", "segment 1" (by rows of the scene's lists) or
-    /// "the round wall".
+    /// Name for messages, such as "fixed disc 3" or "segment 1" (numbered as in the scene's lists)
+    /// or "the round wall".
     std::string name_of(std::uint32_t body) const;
 
 private:
@@ -101,17 +102,17 @@ private:
         double x, y;                       ///< the centre of a disc or an arc, or one end of a line
         double radius;                     ///< radius of a fixed disc or an arc; 0 for a line
         double ux = 0, uy = 0, length = 0; ///< direction and length of a line
-        /// Velocity of the surface, counterclockwise, in units of the scene's value for surfaces
+        /// Velocity of the surface, counterclockwise, divided by the surface velocity of the scene
         double slides = 1;
         bool is_arc = false;
         ArcSpan span{}; ///< directions that an arc covers
         bool is_line() const { return length > 0; }
     };
-    /// Ranges of cells along both axes. The numbers of cells continue beyond a periodic side.
+    /// Ranges of cells along both axes. Cell numbers continue beyond a periodic side.
     struct Cells {
         std::int64_t first_column, last_column, first_row, last_row;
     };
-    /// A body, or an image of it that is displaced by this many boxes.
+    /// A body, or an image of it that is shifted by `x` and `y` whole boxes.
     struct Entry {
         std::uint32_t body;
         std::int16_t x, y;
@@ -171,9 +172,10 @@ private:
     Container container_;
     Periods periods_;
     double largest_radius_; ///< largest radius of a disc before it grows
-    /// Fixed discs; then the line and the two ends of each segment, edge and arc
+    /// Fixed discs; then each segment or edge with its two ends, and each arc with its ends
     std::vector<Body> bodies_;
-    std::vector<std::uint32_t> first_bodies_; ///< index of each row's first body, after the discs
+    /// Index of the first body of each row, beginning with the rows after those of the fixed discs
+    std::vector<std::uint32_t> first_bodies_;
     std::vector<BodyRow> rows_of_bodies_;
     CellAxis columns_, rows_;
     double margin_ = 0;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes when free discs touch while they grow (docs/understanding/effects.md, section 15).
+// Computes when freely flying discs that grow touch (docs/understanding/effects.md, section 15).
 //
 // All radii grow as 1 + g t. In lengths divided by 1 + g t, and with the clock u = t / (1 + g t),
-// discs keep their size, and d + w t becomes d + (w - g d) u, so they still fly straight. So the
-// predicate of constant sizes (pair_contact.hpp) is used with w - g d in place of w. Each component
-// of w - g d is rounded once, by a fused multiply-add. The cross product is taken of d and w for
-// any g, so that this rounding does not affect a graze. No bit depends on the order of the pair or
-// the names of the axes. Without growth the bits equal the bits of contact_delay.
+// discs keep their size, and the separation d + w t becomes d + (w - g d) u, so they still fly
+// straight. So the predicate for discs of constant size (pair_contact.hpp) is used with w - g d in
+// place of w. Each component of w - g d is rounded once, by a fused multiply-add. The cross product
+// is computed from d and w, for any g, so that this rounding does not affect a graze. Exchanging
+// the two discs or the two axes changes no bit. Without growth the bits equal those of
+// contact_delay.
 #pragma once
 
 #include "dynamics/pair_contact.hpp"
@@ -25,7 +26,7 @@ template <class Real>
     const Real clock = contact_delay(dx, dy, vx, vy, wx, wy, sigma, deepest_overlap);
     if (clock < 0) return none;
     const Real rest = std::fma(-growth, clock, Real{1});
-    return rest > 0 ? clock / rest : none; // the growing discs' clock never reaches 1 / g
+    return rest > 0 ? clock / rest : none; // the growing discs' clock u never reaches 1 / g
 }
 
 } // namespace carrom

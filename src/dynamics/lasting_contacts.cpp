@@ -18,8 +18,8 @@ double friction_of(ContactKind kind, const PairFactors& pair) {
 
 } // namespace
 
-/// The cells along one axis. `visit` gives the numbers of the cells between the positions `low` and
-/// `high`, each once, also in a periodic box.
+/// The cells along one axis. `visit` calls a function with the number of each cell between the
+/// positions `low` and `high`, once for each cell even if the range wraps around a periodic box.
 class CellLine {
 public:
     CellLine(double length, double width, double most, bool is_periodic)
@@ -95,7 +95,7 @@ struct LastingContactFinder::Search {
         sorted.resize(discs.size());
         for (std::uint32_t i = 0; i < discs.size(); ++i) sorted[next[cell_of(discs[i])]++] = i;
     }
-    /// Calls visit(disc) for all discs of cells that the rectangle touches.
+    /// Calls visit(i) for the index i of each disc in the cells that the rectangle touches.
     template <class Visit>
     void in_rectangle(double x0, double x1, double y0, double y1, const Visit& visit) const {
         rows.visit(y0, y1, [&](int row) {
@@ -105,7 +105,8 @@ struct LastingContactFinder::Search {
             });
         });
     }
-    /// Adds a contact; (dx, dy) points from the centre of disc i to a body of this radius.
+    /// Adds a contact if its gap is below `widest_gap`. (dx, dy) points from the centre of disc
+    /// `contact.a` to the centre of a body of this radius.
     void add(LastingContact contact, double dx, double dy, double radius) {
         const double square = dx * dx + dy * dy, touching = radii[contact.a] + radius,
                      reach = touching + widest_gap;
@@ -169,8 +170,8 @@ void LastingContactFinder::begin_at(const SurfaceTable& surface, std::uint32_t i
     contact.friction = surface.of(disc.id).rubbing.friction();
 }
 
-/// Only walls at rest that are not thermal have lasting contacts. In a box of another shape than a
-/// rectangle discs do not reach the sides.
+/// Only sides of the kind `wall` have lasting contacts. In a box that is not a rectangle discs do
+/// not reach the sides.
 void LastingContactFinder::add_walls(Search& search) const {
     if (effects_.fixed_bodies.has_shape()) return;
     for (std::int64_t side = 0; side < 4; ++side) {
@@ -181,7 +182,7 @@ void LastingContactFinder::add_walls(Search& search) const {
         const double sign = side % 2 == 0 ? -1 : 1;
         (side < 2 ? contact.nx : contact.ny) = sign;
         const SurfaceTable& surface = surfaces_[static_cast<std::size_t>(side)];
-        // The surface moves along +x or +y.
+        // A side's velocity is along +x or +y, a contact's velocity along its tangent.
         contact.velocity = wall.surface.velocity * (side < 2 ? contact.nx : -contact.ny);
         for (std::uint32_t i = 0; i < search.discs.size(); ++i) {
             const double place = side < 2 ? search.discs[i].x : search.discs[i].y,
@@ -215,7 +216,7 @@ void LastingContactFinder::add_fixed_bodies(Search& search) const {
     const std::size_t n_turning = Container(fixed_bodies.shape, box_).segments().size();
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const Segment& line = lines[k];
-        // The surface of the box's own wall moves counterclockwise, on segments as on arcs.
+        // The surface of the box's own wall moves counterclockwise around the inside of the box.
         contact.velocity = fixed_bodies.surface.velocity * (k + n_turning < lines.size() ? -1 : 1);
         ++contact.body;
         search.in_rectangle(std::min(line.x0, line.x1) - reach, std::max(line.x0, line.x1) + reach,

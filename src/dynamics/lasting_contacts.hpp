@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds pairs, and discs at walls and fixed bodies, that are so close at a sync that they may press
-// on each other until the next sync. Searches cells as wide as the largest distance of centres.
+// Finds the pairs of discs, and the discs at walls and fixed bodies, that are so close at a sync
+// that they may press on each other before the next sync. The cells that are searched are as wide
+// as the largest distance between the centres of such a pair.
 //
 // A contact that is left out costs time but causes no error, because its discs collide instead.
 #pragma once
@@ -32,8 +33,8 @@ struct LastingContact {
     static constexpr std::uint32_t fixed_body = 0xffffffff;
 
     std::uint32_t a = 0, b = fixed_body; ///< indices in the list of discs
-    /// Number of the fixed body: the side of the box, or 4 plus the index of the body in the list
-    /// of discs, then segments, then arcs
+    /// For a wall the number of its side; for a fixed body 4 plus its index in the list of fixed
+    /// discs, then segments, then arcs
     std::int64_t body = -1;
     double nx = 0, ny = 0;
     double gap = 0;      ///< distance between the surfaces
@@ -63,7 +64,7 @@ private:
 
     Box box_;
     Effects effects_;
-    double pair_friction_; ///< friction of pairs that no row names
+    double pair_friction_; ///< friction of pairs without a row of their own
     PairTable pairs_;
     std::array<SurfaceTable, SurfaceContacts::n_surfaces> surfaces_;
 };

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a collision changes the velocities and spins of two discs. A law is one part of a dynamics
+// How a collision changes the velocities and spins of two discs. The law is one part of a dynamics
 // (dynamics.hpp), and is plain data.
 //
 //   elastic       the relative velocity along the line of centres is reversed
-//   restitution   only the share `restitution` of this velocity is left; 1: same bits as elastic
+//   restitution   this velocity is multiplied by `-restitution`; 1: same bits as elastic
 //   rough         discs with spin: normal and tangential restitution, Coulomb's friction
 //                 (Walton and Braun, J. Rheol. 30, 949 (1986); Luding, Phys. Rev. E 52, 4442
 //                 (1995)). Where surfaces stick, their relative velocity is multiplied by
-//                 `-tangential_restitution`. They slide where this takes a tangential impulse
-//                 of more than `friction` times the normal impulse. A guarded contact is
-//                 smooth.
+//                 `-tangential_restitution`. They slide if sticking would take a tangential
+//                 impulse of more than `friction` times the normal impulse. A guarded contact
+//                 is smooth.
 //
 // The coefficients depend on the species of both discs (pair_table.hpp).
 //
-// The law is chosen at run time: a collision takes some 2,900 instructions with everything that it
-// causes, so a branch in it costs almost nothing.
+// The law is chosen at run time. A collision with all its consequences takes some 2,900
+// instructions, so one more branch costs almost nothing.
 //
-// A law gets the time `since` the last collision of either disc, because the guard
-// (contact_guard.hpp) may make the contact elastic. The time-stepped method passes `never`: it
-// needs no guard, because a disc collides at most once in a micro-step there.
+// A law needs the time `since` the last collision of either disc, because the guard
+// (contact_guard.hpp) may make the contact elastic. The time-stepped method passes `never`, because
+// it needs no guard: a disc collides at most once in a micro-step there.
 #pragma once
 
 #include <cmath>
@@ -42,8 +42,8 @@ struct Spins {
 
 class Law {
 public:
-    /// `effects` have times in micro-steps; no disc is larger than `radius`. `pairs` reads a table
-    /// that another object owns.
+    /// `effects` have times in micro-steps; `radius` is the largest radius of a disc. `pairs`
+    /// refers to a table that another object owns.
     Law(const Effects& effects, double radius, const PairView& pairs)
         : kind_(effects.contact.kind), common_(PairFactors::common(effects.contact)), pairs_(pairs),
           inertia_(effects.contact.inertia), guard_(effects, radius) {}
@@ -53,7 +53,8 @@ public:
     CARROM_DEVICE bool has_spin() const { return kind_ == ContactKind::rough; }
     CARROM_DEVICE bool is_elastic() const { return kind_ == ContactKind::elastic; }
 
-    /// Sets the velocities and spins after a collision; `met` is the encounter of the surfaces.
+    /// Sets the velocities and spins after a collision. `met` has the separation of the centres and
+    /// the relative velocity of the surfaces, without spins.
     template <class Real>
     [[gnu::always_inline]] CARROM_DEVICE Loss meet(DiscState& p, DiscState& q,
                                                    const Encounter<Real>& met,
@@ -81,13 +82,14 @@ private:
             return common_;
         return pairs_.of(p.id, q.id);
     }
-    /// The normal impulse of discs that approach at `speed`, relative to an elastic contact. It is
-    /// (1 + e) / 2, which is `normal`, at any speed.
+    /// The normal impulse of discs that approach at `speed`, in units of the impulse of an elastic
+    /// contact. It is (1 + e) / 2, which is `normal`, at any speed.
     CARROM_DEVICE double normal_at(double normal, double /*speed*/) const { return normal; }
 
-    /// `impulse` is in units of the impulse of an elastic contact. The velocity of a disc changes
-    /// by this times 2 m' / (m + m') times the normal relative velocity, where m' is the mass of
-    /// the other disc. For equal masses the share 2 m' / (m + m') is 1, which changes no bit.
+    /// `impulse` is in units of the impulse of an elastic contact. The velocity of a disc of mass m
+    /// changes by this times 2 m' / (m + m') times the normal relative velocity, where m' is the
+    /// mass of the other disc. For equal masses 2 m' / (m + m') is exactly 1, so this factor
+    /// changes no bit.
     template <class Real>
     [[gnu::always_inline]] CARROM_DEVICE static void push_apart(DiscState& p, DiscState& q,
                                                                 const Encounter<Real>& met,
@@ -116,8 +118,9 @@ private:
     }
 
     /// Like meet_smooth, with an additional impulse s along the surfaces, which turns both discs in
-    /// the same sense. Here s and k are velocities divided by the distance of centres. With s = 0
-    /// the bits equal the bits of meet_smooth. Spins are angles per micro-step, counterclockwise.
+    /// the same sense. Here s and k are velocities divided by the distance between the centres.
+    /// With s = 0 the bits equal those of meet_smooth. Spins are angles per micro-step,
+    /// counterclockwise.
     CARROM_DEVICE Loss meet_rough(DiscState& p, DiscState& q, const Encounter<double>& met,
                                   const SizeAndMass& p_has, const SizeAndMass& q_has, double since,
                                   const Spins& spins) const {
@@ -146,8 +149,8 @@ private:
                            rate * rate * square, is_guarded);
     }
 
-    /// The energy that restitution takes, for a reduced mass of 1 and a distance of 1: half of the
-    /// squared approach speed times 1 - e^2.
+    /// The energy that restitution takes, (1 - e^2) k^2 / 2, for a reduced mass of 1 and centres at
+    /// a distance of 1. `k` is the speed of approach.
     CARROM_DEVICE static double normal_loss(double normal, double k) {
         return 2 * normal * (1 - normal) * k * k;
     }
@@ -159,7 +162,7 @@ private:
     }
 
     ContactKind kind_;
-    PairFactors common_; ///< factors of pairs that no row names
+    PairFactors common_; ///< factors of pairs without a row of their own
     PairView pairs_;
     double inertia_;
     ContactGuard guard_;

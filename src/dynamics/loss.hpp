@@ -5,8 +5,8 @@
 
 namespace carrom {
 
-/// Energies as mass times squared velocity, in the unit of stored states. The loss by friction at
-/// walls is not included.
+/// Energies in units of mass times squared velocity, with velocities as in stored states. The loss
+/// by friction at walls is not included.
 struct Loss {
     double taken = 0;
     /// The energy that a guarded collision would have taken; 0 for contacts at rest

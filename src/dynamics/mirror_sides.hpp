@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sides of a box without effects: four elastic walls at rest, for discs of one radius.
-// MirrorSides has functions with the same names as Boundaries (boundaries.hpp), which has the sides
-// of scenes with effects.
+// MirrorSides has functions with the same names as Boundaries (boundaries.hpp), which is used for
+// scenes with effects.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ public:
     Extent extent_at(double /*time*/) const { return {0, box_.x, 0, box_.y}; }
     Extent walls_between(double /*begin*/, double /*end*/) const { return {0, box_.x, 0, box_.y}; }
 
-    /// The time at which the disc meets a side of this axis, or `never`.
+    /// The time at which the disc meets the low or the high side of this axis, or `never`.
     double wall_time(const DiscState& disc, Axis axis, const Body& /*body*/) const {
         const State d(disc);
         return d.tau + walls(axis).delay(along(axis, d.x, d.y), along(axis, d.vx, d.vy));

@@ -31,7 +31,7 @@ public:
         may_lose_discs = have_effects && !is_periodic, is_for_study = Arithmetic::is_for_study;
 
     /// `effects` have times in micro-steps; `radius` is the largest radius of the discs of these
-    /// `species`. `species` and `pairs` read tables that another object owns.
+    /// `species`. `species` and `pairs` refer to tables that another object owns.
     Motion(const Box& box, double radius, const Effects& effects, ContactFormula formula,
            SpeciesView species, const PairView& pairs)
         : arithmetic_(box, radius, formula), box_(Arithmetic::rounded(box)),
@@ -59,16 +59,17 @@ public:
     CARROM_DEVICE double radius() const { return radius_; }
     CARROM_DEVICE double diameter() const { return 2 * radius_; }
     CARROM_DEVICE double tolerance() const { return tolerance_; }
-    /// Half the largest gap between discs in a contact: searches enlarge each radius by it.
+    /// Half the largest gap that rounding leaves between two discs at a contact. Searches enlarge
+    /// each radius by this length.
     CARROM_DEVICE double slack() const { return space_.slack() + arithmetic_.slack(); }
-    /// The largest distance between centres in a contact.
+    /// The largest distance between the centres of two discs at a contact.
     CARROM_DEVICE double search_diameter() const { return diameter() + 2 * slack(); }
     double size_at(double time) const { return bodies_.size_at(time); }
     CARROM_DEVICE double mass_of(const DiscState& disc) const { return bodies_.of(disc).mass; }
 
-    // Squared speeds for which searches reserve distance: of the disc's stored image, and of its
-    // image that is in the box at `time`. If rows of images move, they are upper bounds that also
-    // hold for the images in the next rows.
+    // Squared speeds from which searches derive how far a disc can fly: squared_speed is that of
+    // the stored image of a disc, squared_speed_at that of its image in the box at `time`. Under
+    // shear both are upper bounds, which also hold for the images in the adjacent rows of boxes.
 
     CARROM_DEVICE double squared_speed(const DiscState& disc) const {
         return space_.squared_speed(disc);
@@ -81,7 +82,7 @@ public:
     {
         return space_.periods();
     }
-    /// Gives a box that is periodic along both axes other sides.
+    /// Changes the side lengths of a box that is periodic along both axes.
     void reshape(const Box& box)
         requires(is_periodic && !has_moving_images)
     {
@@ -121,7 +122,7 @@ public:
             base, bodies_.delay(arithmetic_, a, b, met, base, static_cast<Real>(deepest_overlap))};
         return arithmetic_.counts(p, q, found) ? found : PairContact<Real>{};
     }
-    /// Carries out the contact at `time`. `p` has the lower id, and `since` is the time since the
+    /// Carries out the collision at `time`. `p` has the lower id, and `since` is the time since the
     /// last collision of either disc.
     [[gnu::always_inline]] CARROM_DEVICE Loss collide(DiscState& p, DiscState& q, double time,
                                                       double since, const Spins& spins = {}) const {

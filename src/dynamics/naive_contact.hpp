@@ -3,9 +3,9 @@
 // compares this formula with the stable one (pair_contact.hpp).
 //
 // The code computes B^2 - 4 A C and -B - sqrt(...) directly. Both subtract nearly equal numbers
-// when a pair is far apart or grazes. In single precision the formula misses a fifth of the hits at
-// a thousand diameters (docs/understanding/accuracy.md), and would miss seven tenths if a
-// discriminant that rounds to 0 counted as no contact. If a pair overlaps, even by a rounding
+// when a pair is far apart or grazes. In single precision the formula misses a fifth of the hits of
+// pairs a thousand diameters apart (docs/understanding/accuracy.md). It would miss seven tenths if
+// a discriminant that rounds to 0 counted as no contact. If a pair overlaps, even by a rounding
 // error, the root is in the past, so the discs pass through each other.
 #pragma once
 
@@ -15,10 +15,10 @@
 
 namespace carrom {
 
-/// The time until the points come within `sigma`; negative if they never do, or if they overlap
-/// already. With `contracted`, products and sums are fused as by a compiler with
-/// -ffp-contract=fast. The fused operations are written out, so that all compilers give the same
-/// result.
+/// The time until two points come within the distance `sigma`; negative if they never do, or if
+/// they are already within it. If `contracted` is true, products and sums are fused as by a
+/// compiler with -ffp-contract=fast. The fused operations are written out, so that all compilers
+/// give the same result.
 template <class Real>
 CARROM_DEVICE Real naive_contact_delay(Real dx, Real dy, Real wx, Real wy, Real sigma,
                                        bool contracted) {

@@ -12,13 +12,13 @@ namespace carrom {
 
 namespace {
 
-/// A search ends after a disc in flight has come closer to the wall's line than the amplitude this
-/// many times. A disc does so at most twice; the limit is higher because of rounding.
+/// A search ends after a flight has come closer to the wall's line than the amplitude this many
+/// times. A parabola does so at most twice; the limit is higher because of rounding.
 constexpr int most_visits = 8;
-/// A search begins this many periods before the disc comes within the wall's amplitude, and ends
-/// one period and this many later than that.
+/// A search begins this fraction of a period before the disc comes within the wall's amplitude, and
+/// ends one period plus this fraction after that.
 constexpr double margin = 1.0 / 16;
-/// A time in periods that is much longer than any time between syncs.
+/// A time, in periods, that is much longer than any time between syncs.
 constexpr double latest = 0x1p40;
 
 /// The angle, in turns from -1/4 to 1/4, that has this sine, by bisection.
@@ -47,7 +47,7 @@ Oscillation::Oscillation(const Boundary& side, double sign, double acceleration,
     rate_ = two_pi / period_;
     phase_ = whole_turns_off(side.phase / two_pi);
     turns_ = phase_;
-    // At this sine the wall and falling discs have the same acceleration.
+    // The wall and falling discs have the same acceleration when the sine has this value.
     const double sine = -acceleration / (amplitude_ * rate_ * rate_);
     const double bend = std::fabs(sine) < 1 ? turns_of_sine(sine) : 0.25;
     first_bend_ = whole_turns_off(bend);
@@ -98,7 +98,8 @@ private:
     double from_line_at(double s) const {
         return (distance + rate * s) + (0.5 * wall.pull_ * s) * s;
     }
-    /// The rate of the distance. At s = 0 it is exactly `from_wall`, also just after a rebound.
+    /// The rate at which the distance from the wall changes. At s = 0 it is exactly `from_wall`,
+    /// also just after a rebound.
     double slope_at(double s, const WallMotion& then) const {
         return (from_wall + wall.pull_ * s) - wall.sign_ * (then.velocity - now.velocity);
     }

@@ -3,7 +3,7 @@
 // phase), along +x or +y, with t the time since the scene's start. The wall has infinite
 // mass, so nothing changes its motion.
 //
-// In the falling frame the distance of the wall to a disc is a parabola minus a sine. The
+// In the falling frame the distance between the wall and a disc is a parabola minus a sine. The
 // derivative of this distance is monotone between the times at which wall and disc have the same
 // acceleration. These times are known, and there are at most two in a period. So one bracket finds
 // each extremum, and another bracket finds the first root: no contact is missed, at any speed of
@@ -30,15 +30,16 @@ class Oscillation {
 public:
     /// A wall that does not oscillate.
     Oscillation() = default;
-    /// `side` has times in micro-steps. `sign` is 1 if the inside is in the positive direction,
-    /// else -1. Discs have `acceleration` along the axis; `slack` is the rounding of positions.
+    /// `side` has times in micro-steps. `sign` is 1 if the inside of the box is in the positive
+    /// direction from the wall, else -1. Discs have `acceleration` along the axis; `slack` is a
+    /// bound on the rounding errors of positions.
     Oscillation(const Boundary& side, double sign, double acceleration, double slack);
 
     bool is_on() const { return amplitude_ > 0; }
     double amplitude() const { return amplitude_; }
     double largest_speed() const { return amplitude_ * rate_; }
 
-    /// Starts an interval: from now on times are relative to `time` since the scene's start.
+    /// Starts a sync interval at `time` since the scene's start; other times are relative to it.
     void begin_interval(double time);
     WallMotion at(double time) const;
     /// The acceleration towards the wall, relative to it, of a disc that touches it: the larger of

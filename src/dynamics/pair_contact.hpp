@@ -2,9 +2,10 @@
 // Computes when two freely flying discs touch. All contacts of pairs follow from this predicate
 // (docs/understanding/method.md, section 4).
 //
-// The discriminant is taken as (sqrt(A) sigma - |X|)(sqrt(A) sigma + |X|) with the cross product X
-// made exact by fused multiply-adds, and the root as C / (-b + sqrt(disc)), so no nearly equal
-// numbers are subtracted (Lagrange's identity; Kahan 2004). This form of X treats x and y alike, so
+// With the separation d and the relative velocity v, let A = v^2, b = d v, C = d^2 - sigma^2 and X
+// = d x v. The discriminant is computed as (sqrt(A) sigma - |X|)(sqrt(A) sigma + |X|), with X
+// accurate to about an ulp by fused multiply-adds, and the root as C / (-b + sqrt(disc)), so no
+// nearly equal numbers are subtracted (Lagrange's identity; Kahan 2004). X treats x and y alike, so
 // transposed scenes give transposed bits. Most misses cost one square root, and a hit costs two
 // more and a division. Nothing is divided before b < 0 is known, so equal velocities need no
 // special case.
@@ -36,10 +37,10 @@ template <class Real> CARROM_DEVICE Real cross(Real ax, Real ay, Real bx, Real b
 
 /// The time until points at separation (dx, dy) with relative velocity (vx, vy) come within
 /// `sigma`; negative if they never do, or if the pair overlaps by more than `deepest_overlap`. If
-/// this is infinite, overlapping pairs that approach collide immediately. The cross product is
-/// taken of the separation and (wx, wy). For growing discs (wx, wy) is the velocity before a
-/// rounded part along the separation was subtracted, so that this rounding has no effect on a
-/// graze. Always inlined, so that the code of one dynamics does not depend on which others are
+/// `deepest_overlap` is infinite, all overlapping pairs that approach collide immediately. The
+/// cross product is that of the separation and (wx, wy). For growing discs (wx, wy) is the velocity
+/// before a rounded part along the separation was subtracted, so that this rounding has no effect
+/// on a graze. Always inlined, so that the code of one dynamics does not depend on which others are
 /// compiled with it.
 template <class Real>
 [[gnu::always_inline]] CARROM_DEVICE inline Real contact_delay(Real dx, Real dy, Real vx, Real vy,

@@ -2,8 +2,8 @@
 // The coefficients of contacts that depend on the species of both discs: one set for each pair of
 // rows of `discs.species`, and a common set for all other pairs.
 //
-// Rows come in the order of ids, so a disc's row follows from its id. The table is indexed by
-// rows and not by Species, because equal discs of two rows form one Species but may be of different
+// Rows are in order of id, so a disc's row follows from its id. The table is indexed by rows and
+// not by Species, because equal discs of two rows form one Species but may be of different
 // materials.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace carrom {
 /// The factors of a law for one pair of rows.
 struct PairFactors {
     double normal = 1;     ///< normal impulse relative to an elastic contact, (1 + e) / 2
-    double tangential = 0; ///< tangential impulse over sliding velocity where surfaces stick, for
+    double tangential = 0; ///< tangential impulse over sliding velocity if surfaces stick, for
                            ///< masses of 1; 0 if smooth
     double friction = 0;   ///< coefficient of Coulomb's friction
 

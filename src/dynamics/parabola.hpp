@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance of a point on a parabola from a point at rest, and roots in brackets.
-// falling_contact.cpp and arc_contact.cpp use this code.
+// The distance between a point that moves on a parabola and a point at rest, and the search for a
+// root in a bracket. falling_contact.cpp and arc_contact.cpp use this code.
 #pragma once
 
 #include <array>
@@ -11,15 +11,16 @@
 
 namespace carrom {
 
-/// Largest number of steps of the root search. Newton's rule takes about ten steps. Bisection alone
-/// takes fewer than 100 for most intervals.
+/// Maximum number of steps of the root search. Newton's method takes about ten steps. Bisection
+/// alone takes fewer than 100 for most intervals.
 inline constexpr int most_newton_steps = 100;
 
 struct ValueAndRate {
     double value, slope;
 };
 
-/// The root of a function with different signs at the ends. `function(s)` gives value and slope.
+/// The root, between `low` and `high`, of a function with different signs at these ends. `rises` is
+/// true if it is negative at `low`. `function(s)` returns the value and the slope.
 template <class Function>
 double root_between(double low, double high, bool rises, const Function& function) {
     double s = low + (high - low) / 2;

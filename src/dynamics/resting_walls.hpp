@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls at rest, for one coordinate of a disc's centre. `Real` is double, or float for the accuracy
-// study.
+// The two walls at rest that limit one coordinate of a disc's centre. `Real` is double, or float
+// for the accuracy study.
 //
 // In the time-stepped method the position of the disc at the end of micro-step m determines whether
-// it bounces off the wall ahead. A slow disc that ends within the band at a wall bounces at the end
-// of the micro-step without a contact, because rounding might otherwise keep it there for ever.
+// it bounces off the wall ahead. A slow disc that is within a narrow band along the wall at the end
+// of the micro-step bounces then without a contact, because rounding might otherwise keep it there
+// for ever.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +37,7 @@ public:
         return never;
     }
 
-    /// Whether the disc is in the band of the wall that it flies towards, or beyond.
+    /// Whether the disc is in the band of the wall towards which it flies, or beyond this wall.
     CARROM_DEVICE bool touches(Real x, Real v) const {
         return (v < 0 && x <= low_ + band_) || (v > 0 && x >= high_ - band_);
     }

@@ -28,7 +28,7 @@ struct Turning {
 class Rubbing {
 public:
     Rubbing() = default;
-    /// `surface` also gives the wall's velocity. A smooth surface has tangential restitution -1.
+    /// `surface` includes the wall's velocity. A smooth surface has a tangential restitution of -1.
     Rubbing(const Surface& surface, const ContactEffect& contact)
         : friction_(surface.friction), velocity_(surface.velocity), inertia_(contact.inertia),
           share_((1 + surface.tangential_restitution) *

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sines of angles, and roots in brackets. They are computed by + - * / in a fixed order, because
-// the C library does not ensure the same bits on every machine.
+// Sines of angles, and roots of functions in brackets. They are computed by + - * / in a fixed
+// order, because the C library does not ensure the same bits on every machine.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace carrom {
 
 inline constexpr double two_pi = 2 * std::numbers::pi;
 
-/// (-1)^k / n! for n = 3, 5, ... 17, and for n = 4, 6, ... 16. The next terms are below 2^-58 for
-/// angles up to pi / 4.
+/// Coefficients of the Taylor series: +-1 / n! for n = 3, 5, ... 17 (sine) and n = 4, 6, ... 16
+/// (cosine). The next terms are below 2^-58 for angles up to pi / 4.
 inline constexpr std::array<double, 8> sine_terms = {
     -1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
     -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000, 1.0 / 355687428096000};
@@ -40,8 +40,9 @@ struct ValueAndSlope {
     double value, slope;
 };
 
-/// The root of a function with different signs at the ends, accurate to a rounding of `origin` plus
-/// the root. Uses Newton's rule, or bisection if that leaves the bracket or steps do not halve.
+/// The root, between `low` and `high`, of a function with different signs at these ends, to within
+/// the rounding error of `origin` plus the root. Uses Newton's method, or bisection if Newton's
+/// step leaves the bracket or is more than half of the last step.
 template <class Function>
 double root_in_bracket(double low, double high, bool rises, double origin,
                        const Function& function) {

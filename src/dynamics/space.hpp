@@ -3,7 +3,7 @@
 // how fast it moves. It is one part of a dynamics (dynamics.hpp); a space is plain data.
 //
 //   WalledSpace     discs have no images
-//   PeriodicSpace   the box repeats itself at rest, along one axis or both (core/image.hpp)
+//   PeriodicSpace   the box repeats itself, at rest, along one axis or both axes (core/image.hpp)
 //   ShearedSpace    the rows of boxes above and below move along x (A. W. Lees and S. F. Edwards,
 //                   J. Phys. C 5, 1921 (1972)), so that the gas flows with vx = rate (y - const)
 //                   without any wall
@@ -12,8 +12,8 @@
 // box lengths, added in one fixed order, so that all ranks find the same bits. Under shear the
 // image also has a velocity of its own. A disc that leaves through a sheared side keeps its stored
 // state until the next sync, which gives it the position and velocity of its image in the box.
-// Cost: images near these sides are faster than discs in the box by rate times the box's height,
-// which searches have to allow for.
+// Cost: images beyond these sides are faster than discs in the box, by up to rate times the box's
+// height, and searches have to allow for this.
 #pragma once
 
 #include <cmath>
@@ -35,17 +35,17 @@ concept Space = std::is_trivially_copyable_v<S> &&
                 requires(S changing, const S space, const DiscState& p, DiscState& q,
                          std::int64_t n, double d, Axis axis) {
                     { S::is_periodic } -> std::convertible_to<bool>; // whether discs have images
-                    { S::has_moving_images } -> std::convertible_to<bool>; // images have velocities
-                    changing.begin_interval(n); // then times are relative to micro-step n
+                    { S::has_moving_images } -> std::convertible_to<bool>; // whether images move
+                    changing.begin_interval(n); // times are then relative to micro-step n
                     // see(p, q, dx, dy, time): position and velocity of q relative to p at `time`,
-                    // when (dx, dy) is the difference of their stored positions.
+                    // where (dx, dy) is the difference of their positions, without images.
                     { space.see(p, p, d, d, d) } -> std::same_as<Encounter<double>>;
                     { space.is_periodic_along(axis) } -> std::same_as<bool>;
                     { space.has_sides() } -> std::same_as<bool>;
-                    // Half the largest gap in a contact, due to the rounding of positions.
+                    // half the largest gap that rounding leaves between discs at a contact
                     { space.slack() } -> std::convertible_to<double>;
-                    // Speeds that searches allow for: the disc's own speed, or the speed of its
-                    // image in the box at a time.
+                    // squared speeds that searches allow for: of the disc's stored image, and of
+                    // its image in the box at a time
                     { space.squared_speed(p) } -> std::same_as<double>;
                     { space.squared_speed_at(p, d) } -> std::same_as<double>;
                     requires !S::is_periodic || requires {
@@ -105,7 +105,7 @@ public:
     }
     CARROM_DEVICE const Periods& periods() const { return periods_; }
     CARROM_DEVICE void wrap(DiscState& disc) const { periods_.wrap(disc, disc.tau); }
-    /// Gives a box that is periodic along both axes other sides.
+    /// Changes the side lengths of a box that is periodic along both axes.
     void reshape(const Box& box) {
         periods_.x = box.x;
         periods_.y = box.y;
@@ -135,7 +135,7 @@ public:
     static constexpr bool is_periodic_along(Axis /*axis*/) { return true; }
     static constexpr bool has_sides() { return false; }
     CARROM_DEVICE double slack() const { return slack_; }
-    /// The largest squared speed of the disc's own image and of the images next to it.
+    /// An upper bound of the squared speeds of the disc's stored image and of the adjacent images.
     CARROM_DEVICE double squared_speed(const DiscState& disc) const {
         const double vx = std::fabs(periods_.vx_of(disc)) + std::fabs(periods_.speed);
         return vx * vx + disc.vy * disc.vy;

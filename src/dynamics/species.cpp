@@ -5,7 +5,7 @@ namespace carrom {
 
 namespace {
 
-/// If there are more species than this, a table replaces the comparisons.
+/// If there are more species than this, a table with an entry for each disc replaces comparisons.
 constexpr std::size_t few_species = 8;
 
 /// The largest number of species that 16 bits can number.
@@ -16,7 +16,7 @@ constexpr std::size_t most_numbers = std::numeric_limits<std::uint16_t>::max() +
 void SpeciesTable::Table::spread(std::span<const Species> species, DiscId n_discs,
                                  bool radii_change) {
     const bool has_numbers = species.size() <= most_numbers && !radii_change;
-    // Memory is reserved here, because a list that grows takes up to twice the memory.
+    // Memory is reserved here, because a vector that grows may take up to twice the memory.
     sizes.reserve(has_numbers ? species.size() : n_discs);
     if (has_numbers) species_of_id.reserve(n_discs);
     for (const Species& one : species) {

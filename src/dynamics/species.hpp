@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Species: the mass and, before growth, the radius of each disc. In a run only swaps change them.
+// Species: mass and, before growth, radius of each disc. During a run only swaps change them.
 //
-// Species come in the order of ids, so a disc's species follows from its id and takes no memory in
-// arrays, messages and checkpoints. Few species are found by comparing ids. Many species
-// have a table by id on every rank: up to 65,536 species take 2 bytes a disc for the number of the
-// species, and more take 16, because the table then contains radius and mass of each disc.
+// Species are in order of id, so a disc's species follows from its id and takes no memory in
+// arrays, messages and checkpoints. If there are few species, a disc's species is found by
+// comparing ids. If there are many, each rank has a table with an entry for every disc of the
+// scene: the number of its species (2 bytes) for up to 65,536 species, otherwise its radius and
+// mass (16 bytes).
 #pragma once
 
 #include <cstdint>

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Less accurate arithmetic, for the accuracy study (docs/understanding/accuracy.md): single
 // precision, the naive contact formula, or both. It replaces StableArithmetic in the plain dynamics
-// if a scene requires this.
+// if the scene selects it.
 //
 // `Number` is the precision of states and of computation. A state of floats is stored as doubles of
 // the same values, so the rest of the program does not depend on the precision. The formula is
 // chosen when the program runs.
 //
-// Such arithmetic finds contacts where discs do not touch, and misses others. The search covers
-// only pairs that can touch, plus a margin that depends on ranks and threads. So a contact counts
-// only within a fixed margin (`farthest_`), so that ranks and threads do not affect contacts.
+// Such arithmetic finds contacts where discs do not touch, and misses others. The search covers the
+// pairs that can touch, and other pairs within a margin that depends on ranks and threads. So that
+// contacts do not depend on these, a contact counts only if the centres are within a fixed distance
+// (`farthest_`).
 #pragma once
 
 #include <algorithm>
@@ -23,7 +24,7 @@
 
 namespace carrom {
 
-/// A disc's numbers in the precision of the computation.
+/// The state of a disc in the precision of the computation.
 template <class Real> struct RoundedState {
     Real x, y, vx, vy, tau;
 
@@ -92,10 +93,11 @@ public:
     }
 
 private:
-    /// The largest error, in diameters, of a contact that a formula with cancellation finds. At a
-    /// distance of d diameters a rounding u changes B^2 - 4 A C by some u (2 d v)^2. So a grazing
-    /// contact moves along the flight by the root of this change over 2 v, s diameters, and its
-    /// distance by some s^2 diameters. From half a diameter on, the contact counts as lost.
+    /// The largest error, in diameters, of the distance at a contact found by a formula with
+    /// cancellation. For discs d diameters apart, a rounding error u changes B^2 - 4 A C by about u
+    /// (2 d v)^2. Thus a grazing contact moves along the flight by s diameters, the square root of
+    /// this change over 2 v, and the distance changes by about s^2. Contacts with errors above half
+    /// a diameter count as lost.
     static double misplacement(const Box& box, double radius) {
         const double longest = std::numbers::sqrt2 * rounded(box).longest() / (2 * rounded(radius));
         return std::min(0.5, 2.5 * std::numeric_limits<Real>::epsilon() * longest * longest);
@@ -103,7 +105,7 @@ private:
 
     ContactFormula formula_;
     double place_rounding_, slack_;
-    double farthest_; ///< the largest distance between centres in a contact
+    double farthest_; ///< the largest distance between centres at which a contact counts
 };
 
 } // namespace carrom

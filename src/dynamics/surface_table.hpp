@@ -2,8 +2,8 @@
 // How contacts with sides and fixed bodies depend on the species of the disc: coefficients for some
 // rows of `discs.species`, and the common coefficients of the surface for all other discs.
 //
-// A disc's row follows from its id, as in pair_table.hpp. A surface without rows costs one test of
-// a pointer in a bounce.
+// A disc's row follows from its id, as in pair_table.hpp. If a surface has no rows, a bounce costs
+// only one more test of a pointer.
 #pragma once
 
 #include <cstddef>

@@ -6,8 +6,8 @@
 //   SurroundingsOfEffects    sides of any kind (boundaries.hpp), fixed bodies (fixed_bodies.hpp), a
 //                            frame that falls (falling_frame.hpp)
 //
-// Most functions of sides are for the event-driven method. Walls within a micro-step of the
-// time-stepped method are in time_stepped/step_walls.hpp.
+// Most functions of sides are for the event-driven method. The code for walls within a micro-step
+// of the time-stepped method is in time_stepped/step_walls.hpp.
 #pragma once
 
 #include "dynamics/arithmetic.hpp"

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// The longest time after a sync, in periods; the next sync comes earlier.
+/// The longest time after a sync, in periods, in which contacts are searched for.
 constexpr double longest_arc = 0.125 * (1 + 0x1p-10);
 
 /// For a small angle x: its sine, 1 - cos x and x - sin x, each accurate to a few roundings.
@@ -26,7 +26,7 @@ struct Turn {
     double sine, versine, lag;
 };
 
-/// A disc's flight relative to a wall, at the time s after the disc's time.
+/// A disc's flight relative to a wall; s is the time since the time of the disc's state.
 struct SwayingFlight {
     double distance, speed, pull;
     double sine, cosine; ///< amplitude times sine and cosine of the phase at s = 0
@@ -65,7 +65,7 @@ private:
     double bend_of(const Turn& arc) const { return cosine * (1 - arc.versine) - sine * arc.sine; }
 };
 
-/// Times between which a function is monotone: a beginning, at most three roots, and an end.
+/// Times that cut an interval into pieces: its beginning, at most three roots, and its end.
 class Cuts {
 public:
     Cuts(double begin, double end) : end_(end) { add(begin); }
@@ -81,7 +81,8 @@ private:
     double end_;
 };
 
-/// The pieces in which a function is monotone; its derivative `slope` is monotone in `pieces`.
+/// The pieces in which a function is monotone. In each of `pieces` its derivative `slope` is
+/// monotone, so it has at most one root there.
 template <class Function>
 Cuts cut_at_roots(const Cuts& pieces, double end, double origin, const Function& slope) {
     Cuts cuts(pieces.begin(0), end);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of a uniform acceleration that changes in time: A sin(2 pi t / P + phase) along each
-// axis, with t the time since the scene's start. Both axes have the same period, so the field may
-// swing along a line, or turn.
+// axis, with t the time since the scene's start. Both axes have the same period, so the
+// acceleration may swing along a line, or rotate.
 //
 // All discs have the same acceleration, so it only moves the falling frame (falling_frame.hpp), and
 // contacts of pairs do not depend on it. In the frame the path of a wall is a parabola plus a sine,
@@ -10,9 +10,9 @@
 //     d + r s + g s^2 / 2 + (S (1 - cos w s) + C (w s - sin w s)) / w^2 = 0,    w = 2 pi / P,
 //
 // where S and C are A times the sine and the cosine of the phase at the disc's time. The third
-// derivative has at most one root in an eighth of a period, so brackets find all roots of the
-// second, then of the first one, and no contact is missed. No nearly equal numbers are subtracted,
-// however long a period is.
+// derivative has at most one root in an eighth of a period. So brackets find all roots of the
+// second derivative, then those of the first, and no contact is missed. No nearly equal numbers are
+// subtracted, however long the period is.
 //
 // All formulas hold up to an eighth of a period after a sync, so the reader of scenes requires at
 // least one sync in each eighth of a period (scene/effects/gravity.cpp).
@@ -25,7 +25,7 @@ namespace carrom {
 
 struct Acceleration;
 
-/// The motion of a frame from rest along one axis, due to the changing part of the acceleration.
+/// The motion, along one axis, of a frame that starts at rest, due to the changing acceleration.
 struct Swayed {
     double way = 0, speed = 0, acceleration = 0;
 };
@@ -42,13 +42,13 @@ public:
     void begin_interval(double time);
     /// The motion since the sync; `time` is at most about an eighth of a period.
     Swayed at(std::size_t axis, double time) const;
-    /// The time until a disc meets a wall. At `time`, `distance`, its `rate` and the steady `pull`
-    /// are positive towards the inside, which is in the direction `sign`. Like fall_delay;
-    /// infinite if the contact is later than an eighth of a period after the sync.
+    /// Like fall_delay: the delay from `time` until a disc meets a wall; infinite if they meet
+    /// later than an eighth of a period after the sync. `distance`, its `rate` at `time` and the
+    /// steady `pull` are positive inwards; `sign` is 1 if inwards is towards +x or +y, else -1.
     double contact_delay(std::size_t axis, double sign, double distance, double rate, double pull,
                          double time) const;
 
-    /// The motion until `to` of a frame at rest at `from`; both are times since the scene's start.
+    /// The motion up to `to` of a frame at rest at `from`; both are times since the scene's start.
     static std::array<Swayed, 2> between(const Acceleration& acceleration, double from, double to);
 
 private:

@@ -3,11 +3,12 @@
 //
 // At a sync all states are at one time and in the box's own coordinates. The effect on a disc may
 // depend on that disc's state, on discs near it, on exact sums over all discs, and on random
-// numbers (functions of seed, disc and count of syncs). So any number of ranks and threads gives
-// the same bits, and a restart needs only the count and the values that an effect keeps (`kept`).
+// numbers (functions of the seed, the disc and the number of syncs). So any number of ranks and
+// threads gives the same bits, and a restart needs only the number of syncs and the values that an
+// effect keeps (`kept`).
 //
-// The engine calls each effect once a sync, never for a pair. Scenes without such an effect have
-// an empty list of effects.
+// The engine calls each effect once per sync, never for single pairs. Scenes without such an effect
+// have an empty list of effects.
 #pragma once
 
 #include <cstddef>
@@ -38,13 +39,13 @@ struct WallImpulse {
     double ix = 0, iy = 0, torque = 0; ///< as in WallEvent; only for fixed bodies
 };
 
-/// The impulse that one disc gives another one at a sync.
+/// The impulse between two discs at a sync.
 struct PairImpulse {
     DiscId p = 0, q = 0;       ///< p is the lower id
     double x = 0, y = 0;       ///< centre of p
     double dx = 0, dy = 0;     ///< vector from the centre of p to the centre of q
     double ix = 0, iy = 0;     ///< impulse that p gets; q gets the opposite
-    double p_vx = 0, p_vy = 0; ///< means of p's velocities before and after the sync
+    double p_vx = 0, p_vy = 0; ///< mean of p's velocities before and after the sync
     double q_vx = 0, q_vy = 0;
 };
 
@@ -52,33 +53,36 @@ struct PairImpulse {
 /// velocities are relative to the flow, so that an effect acts as in a gas at rest.
 struct SyncDiscs {
     const SpeciesTable& species;     ///< the radius and the mass of each disc
-    std::span<DiscState> discs = {}; ///< includes departed discs, which effects do not change
+    std::span<DiscState> discs = {}; ///< includes departed discs, which effects must not change
     /// Spins in the order of `discs`; empty unless discs are rough
     std::span<double> spins = {};
-    std::span<double> directions = {}; ///< angles in the order of `discs`; empty unless active
+    /// Angles in the order of `discs`; empty unless discs are active
+    std::span<double> directions = {};
     /// Radii in the order of `discs`; empty unless discs exchange them
     std::span<double> radii = {};
-    /// Number of syncs since the scene's start, this one included
+    /// Number of syncs since the scene's start, including this one
     std::int64_t n_syncs = 0;
 
     using Part = std::function<void(std::size_t begin, std::size_t end)>;
-    /// Calls `part` for pieces of the discs, on several threads in parallel. `part` must not throw.
+    /// Calls `part` for ranges of indices that together cover all discs, on several threads in
+    /// parallel. `part` must not throw.
     std::function<void(const Part& part)> in_parts = {};
-    /// Calls `visit(index, other, distance)` on one thread for each own disc and each other disc,
-    /// or image of one, within the reach that an effect has requested.
+    /// Calls `visit(index, other, distance)`, on one thread, for each disc of this rank and each
+    /// other disc, or image of one, within the reach that effects have requested
+    /// (SyncEffect::reach).
     using VisitNear = std::function<void(std::size_t index, DiscId other, double distance)>;
     std::function<void(const VisitNear& visit)> visit_near_pairs = {};
     /// Replaces each sum by its sum over all ranks. **Collective.**
     std::function<void(std::span<ExactSum>)> add_over_ranks = {};
-    /// Returns the largest of the numbers of all ranks to every rank. **Collective.**
+    /// Returns, on every rank, the largest of the numbers that the ranks pass. **Collective.**
     std::function<double(double)> largest_over_ranks = {};
-    /// Returns the bytes of all ranks, in the order of ranks, to every rank. **Collective.**
+    /// Returns, on every rank, the bytes that all ranks pass, in order of rank. **Collective.**
     std::function<std::vector<std::byte>(std::span<const std::byte>)> gather_over_ranks = {};
-    /// Records the impulse of a side or a fixed body, per micro-step. One rank calls this for all
-    /// ranks. It is empty unless walls are measured.
+    /// Records the impulse of a side or a fixed body, with times in micro-steps. Only one rank
+    /// calls this, on behalf of all ranks. It is empty unless walls are measured.
     std::function<void(const WallImpulse&)> record_wall = {};
-    /// Records the impulse between two discs, per micro-step. One rank calls this for all ranks. It
-    /// is empty unless stress or pairs are measured.
+    /// Records the impulse between two discs, with times in micro-steps. Only one rank calls this,
+    /// on behalf of all ranks. It is empty unless stress or pairs are measured.
     std::function<void(const PairImpulse&)> record_pair = {};
 
     /// Adds the terms of all discs in the box to `sums`, which must be 0. `term(i, parts)` adds the
@@ -99,13 +103,13 @@ template <class Term> void SyncDiscs::add_up(std::vector<ExactSum>& sums, const 
     add_over_ranks(sums);
 }
 
-/// One factor for the radii of all discs, which an effect changes at syncs. Positions and
-/// velocities do not change. All functions return the same on all ranks.
+/// The common factor of the radii of all discs, for an effect that changes it at syncs. Positions
+/// and velocities do not change. All functions return the same on all ranks.
 class SizeChange {
 public:
     virtual ~SizeChange() = default;
 
-    /// The present factor of all radii.
+    /// The factor by which all radii are multiplied at present.
     virtual double size() const = 0;
     /// The largest value that the factor can have after this sync.
     virtual double largest_at(std::int64_t n_syncs) const = 0;
@@ -114,24 +118,24 @@ public:
     virtual void change(std::int64_t n_syncs, double room) = 0;
 };
 
-/// A range of factors for the side of the box along x. The side along y is divided by the factor,
-/// so that the area stays as it is.
+/// A range of factors for the side of the box along x. The side along y is divided by the same
+/// factor, so that the area does not change.
 struct StretchRange {
     double least = 1, most = 1;
 };
 
-/// The sides of a periodic box, which an effect changes at syncs. The box keeps its area, and
-/// positions are stretched with their axis. All functions return the same on all ranks.
+/// The sides of a periodic box, for an effect that changes them at syncs. The box keeps its area,
+/// and positions are stretched with the sides. All functions return the same on all ranks.
 class ShapeChange {
 public:
     virtual ~ShapeChange() = default;
 
-    /// The present sides.
+    /// The box with its present sides.
     virtual Box box() const = 0;
     /// The largest factor by which a change makes a side longer or shorter.
     virtual double largest_stretch() const = 0;
-    /// Changes the sides. Within `room` no two discs overlap; it contains 1 and may be wider than
-    /// `largest_stretch`.
+    /// Changes the sides. No two discs overlap after a stretch by a factor within `room`, which
+    /// contains 1 and may be wider than `largest_stretch` allows.
     virtual void stretch(std::int64_t n_syncs, const StretchRange& room) = 0;
 };
 
@@ -139,18 +143,19 @@ public:
 /// line where discs depart.
 struct Arrival {
     std::size_t side = 0;
-    DiscId first = 0, end = 0; ///< range of ids that the disc may have
-    double flown = 0;          ///< time from the disc's arrival to the sync
-    double across = 0;         ///< place of arrival as a share of the free length of the side
-    bool has_low_wall = true, has_high_wall = true; ///< whether the side's ends are at walls
+    DiscId first = 0, end = 0; ///< the disc gets an id from `first` to `end` - 1
+    double flown = 0;          ///< time between the disc's arrival and the sync
+    /// Position along the side: 0 and 1 are the ends of the range that the disc's centre may have
+    double across = 0;
+    bool has_low_wall = true, has_high_wall = true; ///< whether walls bound the side's two ends
     double inwards = 0, along = 0;                  ///< velocity at arrival, for a mass of 1
 };
 
-/// The numbers of arrivals that came in, and of arrivals that were not let in.
+/// The numbers of arriving discs that came in, and of those that were not let in.
 struct ArrivalCounts {
     std::uint64_t in = 0;            ///< discs that came in
-    std::uint64_t without_place = 0; ///< not let in, because a disc or a fixed body is there
-    std::uint64_t without_disc = 0;  ///< not let in, because no disc had departed
+    std::uint64_t without_place = 0; ///< not let in, because a disc or a fixed body was in the way
+    std::uint64_t without_disc = 0;  ///< not let in, because no departed disc was left to return
 };
 
 /// Lets departed discs come back into the box. All functions return the same on all ranks.
@@ -171,11 +176,10 @@ public:
 
     /// Called before all other functions. `species` is the run's table; copies of it share memory.
     virtual void learn(const SpeciesTable& /*species*/) {}
-    /// The largest distance between the pairs that the effect needs at this sync; 0 if it needs no
-    /// pairs. It is equal on all ranks.
+    /// The largest distance of the pairs that the effect needs at this sync; 0 if it needs no
+    /// pairs. It is the same on all ranks.
     virtual double reach(std::int64_t /*n_syncs*/) const { return 0; }
-    /// Changes velocities, spins, directions and radii of discs, and no other numbers.
-    /// **Collective.**
+    /// Changes velocities, spins, directions and radii of discs, and nothing else. **Collective.**
     virtual void act(const SyncDiscs& at) = 0;
     /// The change of radii, for an effect that changes them; null for all others. At most one
     /// effect may change radii.
@@ -188,12 +192,12 @@ public:
 
     /// Whether `begin` does anything.
     virtual bool begins() const { return false; }
-    /// Like `act`, immediately before the flights that follow a sync or the scene's start. Outputs
-    /// at a sync contain the state between `act` and `begin`. **Collective.**
+    /// Like `act`, but called immediately before the flights that follow a sync or the scene's
+    /// start. Outputs at a sync contain the state between `act` and `begin`. **Collective.**
     virtual void begin(const SyncDiscs& /*at*/) {}
 
-    /// The numbers that the effect needs at the next sync besides the states of discs, equal on all
-    /// ranks. A checkpoint stores them, and a restart gives them back.
+    /// The numbers, besides the states of discs, that the effect needs at the next sync; they are
+    /// equal on all ranks. A checkpoint stores them, and a restart passes them to `go_on`.
     virtual std::vector<std::int64_t> kept() const { return {}; }
     virtual void go_on(std::span<const std::int64_t> /*kept*/) {}
 };

@@ -11,23 +11,23 @@ namespace carrom {
 
 namespace {
 
-/// A disc comes in only if its gaps to others are at least this share of the sum of both radii, so
-/// that rounding never makes discs overlap.
+/// The smallest gap between a disc that comes in and any other disc, relative to the sum of their
+/// radii. It keeps rounding errors from making discs overlap.
 constexpr double least_gap = 1e-9;
 
-/// An arrival with its disc. A disc is let in if its place of entry is free, even if the place that
-/// it has reached since then is blocked. Otherwise fast discs would be left out more often.
+/// A disc that an arrival may let in. It comes in if its place of entry is free, even if the place
+/// that it would have reached by the sync is blocked. Otherwise more fast discs would stay out.
 struct Candidate {
     ReturningDisc disc; ///< the disc at the place of entry
-    DiscState there;    ///< the disc at the place that it has reached by the sync
+    DiscState there;    ///< the disc at the place that it would have reached by the sync
     double radius = 0;
     bool is_blocked = false, is_blocked_there = false;
 };
 
 bool may_have(const Arrival& arrival, DiscId id) { return id >= arrival.first && id < arrival.end; }
 
-/// The departed discs on this rank that may come in: for each range of ids the ones with the lowest
-/// ids, at most as many as there are arrivals.
+/// The departed discs on this rank that may come in: from each arrival's range of ids those with
+/// the lowest ids, at most as many as there are arrivals in total.
 std::vector<ReturningDisc> lowest_of_rank(std::span<const Arrival> arrivals,
                                           const AdmissionGround& ground) {
     std::vector<std::size_t> places;
@@ -69,8 +69,9 @@ std::map<DiscId, ReturningDisc> lowest_of_all(const std::vector<ReturningDisc>& 
     return all;
 }
 
-/// Gives the disc its velocity, its place of entry and the place that it has reached. The second
-/// place counts as blocked if it is not in the box.
+/// Sets the disc's velocity, its place of entry and the place that it would have reached by the
+/// sync. The place of entry counts as blocked if the side is too short for the disc, the other
+/// place if it is less than a radius from the opposite side.
 void place(Candidate& candidate, const Arrival& arrival, double mass, const Box& box) {
     const bool is_x = arrival.side < 2, is_low = arrival.side % 2 == 0;
     const double length = is_x ? box.x : box.y, width = is_x ? box.y : box.x,
@@ -93,7 +94,8 @@ void place(Candidate& candidate, const Arrival& arrival, double mass, const Box&
     candidate.is_blocked_there = depth > length - radius;
 }
 
-/// Marks places that fixed bodies block, as if the disc came in at a right angle to the side.
+/// Marks the two places of a candidate that fixed bodies block. The path is tested as if the disc
+/// came in at a right angle to the side.
 void block_by_fixed_bodies(Candidate& candidate, const Arrival& arrival,
                            const AdmissionGround& ground) {
     DiscState from = candidate.disc.state, to = candidate.there;
@@ -107,14 +109,14 @@ bool do_overlap(const DiscState& p, const DiscState& q, double radii) {
     return dx * dx + dy * dy < least * least;
 }
 
-/// Marks places that discs of any rank block. **Collective.**
+/// Marks the places of candidates that discs of any rank block. **Collective.**
 void block_by_discs(std::vector<Candidate>& candidates, const AdmissionGround& ground) {
     std::vector<std::uint64_t> n_in_way(2 * candidates.size(), 0);
     for (const DiscState& disc : ground.own)
         for (std::size_t k = 0; k < candidates.size(); ++k) {
             const Candidate& one = candidates[k];
             const DiscState &from = one.disc.state, &to = one.there;
-            // Most discs are far away, so reading their radii would be a waste of time.
+            // Most discs are far away. They are skipped before their radii are read.
             const double far = 2 * (one.radius + ground.largest_radius);
             if (disc.x < std::min(from.x, to.x) - far || disc.x > std::max(from.x, to.x) + far ||
                 disc.y < std::min(from.y, to.y) - far || disc.y > std::max(from.y, to.y) + far)
@@ -152,7 +154,7 @@ Admission admit(std::span<const Arrival> arrivals, const AdmissionGround& ground
         block_by_fixed_bodies(candidate, arrival, ground);
     }
     if (ground.have_pairs) block_by_discs(candidates, ground);
-    std::vector<std::pair<DiscState, double>> admitted; // discs that have come in, with radii
+    std::vector<std::pair<DiscState, double>> admitted; // discs let in so far, with their radii
     for (Candidate& one : candidates) {
         const auto is_in_way_of = [&](const DiscState& state) {
             return ground.have_pairs && std::ranges::any_of(admitted, [&](const auto& other) {

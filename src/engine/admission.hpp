@@ -29,8 +29,8 @@ struct AdmissionGround {
     bool have_pairs; ///< if false, discs pass through each other and never block a place
     std::span<const DiscState> own, departed; ///< discs of this rank
     const SideColumns& departed_columns;      ///< side columns of `departed`, in the same order
-    /// Whether no fixed body is at `from`, at `to` or in the way of a straight flight between them,
-    /// which takes `time` in micro-steps.
+    /// Whether no fixed body overlaps the disc at `from`, at `to` or on the straight flight between
+    /// them, which takes `time` (in micro-steps).
     std::function<bool(const DiscState& from, const DiscState& to, double time)> has_room;
 };
 
@@ -39,10 +39,10 @@ struct Admission {
     ArrivalCounts counts;
 };
 
-/// Each arrival gets the departed disc with the lowest id in its range that no earlier arrival has.
-/// If another disc or a fixed body is at the place of entry, this disc does not come in. If only
-/// the place that it would have reached by the sync is blocked, or a fixed body is in between, it
-/// stays at the place of entry. **Collective.**
+/// Assigns to each arrival the departed disc with the lowest id in its range that no earlier
+/// arrival has taken. The disc does not come in if another disc or a fixed body blocks the place of
+/// entry. It comes in at that place if only the place that it would have reached by the sync is
+/// blocked, or if a fixed body lies between the two. **Collective.**
 Admission admit(std::span<const Arrival> arrivals, const AdmissionGround& ground);
 
 } // namespace carrom

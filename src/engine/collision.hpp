@@ -12,7 +12,7 @@ namespace carrom {
 struct Collision {
     static constexpr DiscId wall = ~DiscId{0};
 
-    /// `time` counts from the start of this micro-step; the scene's first one has the number 0
+    /// `time` counts from the start of this micro-step; the scene's first micro-step is number 0
     std::int64_t micro_step = 0;
     double time = 0; ///< time in micro-steps
     /// Position in a chain of collisions at the same time; always 0 in the time-stepped method
@@ -21,8 +21,8 @@ struct Collision {
     double impulse = 0;     ///< magnitude of the impulse on p, in mass times length per step
 };
 
-/// The numbers of box lengths by which a disc that has flown through periodic sides is brought
-/// back into the box at a sync.
+/// The numbers of box lengths that a sync subtracts from the coordinates of a disc to bring it back
+/// into a periodic box.
 struct Crossing {
     DiscId disc = 0;
     double x = 0, y = 0; ///< whole numbers of box lengths

@@ -9,7 +9,7 @@ namespace carrom {
 
 struct DeviceFacts {
     std::string name;
-    std::uint64_t bytes = 0, free_bytes = 0; ///< size of the GPU's memory, and the free part
+    std::uint64_t bytes = 0, free_bytes = 0; ///< total and free memory of the GPU
 };
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses one of the dynamics that engines are compiled for, from the scene. No other
-// code makes this choice.
+// Chooses, for a scene, one of the dynamics for which engines are compiled. No other code makes
+// this choice.
 #pragma once
 
 #include "dynamics/all_dynamics.hpp"
@@ -8,9 +8,9 @@
 
 namespace carrom {
 
-/// Calls `make.template operator()<D>()` with the scene's dynamics and returns its
-/// result, which has the same type for every dynamics. With effects only the default
-/// precision and arithmetic are possible: the reader of scenes reports an error for others.
+/// Calls `make.template operator()<D>()` with the scene's dynamics as D and returns its result,
+/// which has the same type for every D. Scenes with effects always have the default precision and
+/// arithmetic: the reader of scenes reports an error for any other.
 template <class Make> auto with_dynamics_of(const SceneParameters& scene, const Make& make) {
     const Effects& effects = scene.effects;
     const bool has_species = !effects.species.empty();
@@ -34,8 +34,8 @@ inline ContactFormula contact_formula_of(const SceneParameters& scene) {
     return scene.contraction ? ContactFormula::naive_contracted : ContactFormula::naive;
 }
 
-/// The dynamics with the scene's parameters, converted to micro-steps, in a box whose sides an
-/// effect may have changed.
+/// The dynamics with the scene's parameters, converted to micro-steps as unit of time. `box` may
+/// differ from the scene's box, because an effect may have changed its sides.
 template <class D> D dynamics_of(const SceneParameters& scene, const Box& box) {
     return D(box, scene.radius, per_micro_step(scene), contact_formula_of(scene));
 }

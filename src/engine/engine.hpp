@@ -33,7 +33,7 @@ namespace carrom {
 /// the halo, all sorted into cells.
 struct LocalView {
     Population population;
-    const CellGrid* grid = nullptr; ///< its reach is at least a diameter and that of local_view
+    const CellGrid* grid = nullptr; ///< reaches at least a diameter and local_view's `reach`
     const Domains* domains = nullptr;
     double time = 0;   ///< time since the last sync
     Frame frame;       ///< the frame in which the discs' coordinates are stored
@@ -53,8 +53,9 @@ public:
     /// Fills in totals that only the engine has: overlaps, rejected candidates, energy lost.
     /// **Collective.**
     virtual void add_to(Totals& totals) = 0;
-    /// Redistributes the discs in their present state, so that pairs within a diameter, or within
-    /// `reach` if that is more, can be inspected. Valid until the next step. **Collective.**
+    /// Redistributes the discs at the present time, so that pairs within a diameter, or within
+    /// `reach` if that is more, can be inspected. The view is valid until the next step.
+    /// **Collective.**
     virtual LocalView local_view(double reach = 0) = 0;
     /// Removes the images of own discs that local_view has added in a periodic box.
     virtual void forget_images() = 0;
@@ -72,12 +73,12 @@ public:
     virtual std::span<const DiscState> departed()
         const = 0; ///< the discs of this rank that have left the box; own() does not contain them
     virtual SideSpans side_columns() const { return {}; } ///< values for the discs in `own()`
-    /// Numbers outside of the 64-byte states (side_columns.hpp), for the discs in `departed()`.
+    /// The side columns (side_columns.hpp) of the discs in `departed()`, in the same order.
     virtual SideSpans departed_columns() const { return {}; }
     virtual const SpeciesTable& species_table() const = 0;
     /// The factor by which an effect at syncs has changed all radii of `species_table()`.
     virtual double size() const { return 1; }
-    /// The sides of the box, which an effect may have changed. Walls that move do not affect them.
+    /// The present side lengths of the box. An effect may change them; moving walls do not.
     virtual Box box() const = 0;
     virtual double clock() const = 0;
     virtual Frame frame() const { return {}; } ///< the frame of the own discs at `clock()`
@@ -91,8 +92,8 @@ public:
     /// Largest number of ranks that share a strip; equal on all ranks
     virtual int most_ranks_across() const = 0;
 
-    /// See DiscSystem::log_to. Engines append the collisions that they carry out while `log_` is
-    /// not null.
+    /// See DiscSystem::log_to. Engines append the collisions that they carry out to `log_`, unless
+    /// it is null.
     void log_to(std::vector<Collision>* log) { log_ = log; }
     /// Followers of this rank's collisions: of two discs, and of discs with sides and fixed bodies.
     Followers<PairEvent>& followers_of_pairs() { return pair_followers_; }
@@ -113,10 +114,10 @@ public:
     }
     /// Starts sums of energy lost in collisions; `bound` exceeds each sum. Call it before any step.
     void begin_loss_sums(double bound) { losses_ = no_losses_ = LossSums(bound); }
-    /// Coefficients of the integral over flights that the sums of stress do not contain yet.
+    /// Coefficients of the integral over those flights that the sums of stress do not contain yet.
     virtual FlightIntegral flight_integral() const { return {}; }
-    /// From now on a sync in a periodic box appends to `crossings` the numbers of box lengths by
-    /// which own discs are brought back, until `forget_crossings_in` is called.
+    /// From now on each sync in a periodic box appends to `crossings` the own discs that it brings
+    /// back into the box, until `forget_crossings_in` is called.
     void record_crossings_in(std::vector<Crossing>& crossings) { crossings_.push_back(&crossings); }
     void forget_crossings_in(std::vector<Crossing>& crossings) {
         std::erase(crossings_, &crossings);
@@ -135,8 +136,8 @@ protected:
     StressSums* stress_ = nullptr;
     double* work_ = nullptr;
     std::function<void()> before_effects_;
-    /// Partial sums begin as copies of this. Its unit is so large that all terms are rounded to 0,
-    /// until a measurement needs sums.
+    /// Empty sums from which partial sums are copied. Until a measurement needs sums, the unit is
+    /// so large that all terms are rounded to 0.
     StressSums no_stress_{0x1p900};
     LossSums losses_{0x1p900}, no_losses_{0x1p900};
     std::vector<std::vector<Crossing>*> crossings_;

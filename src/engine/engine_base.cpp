@@ -54,7 +54,8 @@ EngineBase<Dynamics>::EngineBase(const SceneParameters& scene, StoredState state
     largest_speed_ = std::sqrt(squared_speed_of_own(time_));
 }
 
-/// Flights must be added to the sums of stress at each sync, if syncs change velocities.
+/// The number of micro-steps between additions of flights to the sums of stress: the interval of
+/// syncs if syncs change velocities, otherwise up to longest_flight.
 template <class Dynamics> std::int64_t EngineBase<Dynamics>::flight_length() const {
     const bool sync_changes_velocities = Dynamics::has_moving_images || dynamics_.has_own_frame() ||
                                          sync_action_.has_effects();
@@ -92,11 +93,11 @@ void EngineBase<Dynamics>::redistribute_now(double least_reach, Covered covered)
     discs_.fetch_halo(time_, reach, nullptr);
 }
 
-/// The part of `seen` that contains the own discs and their partners within `reach`; all of `seen`
-/// if that part is not small. A disc outside of the part counts in the nearest cell.
+/// The part of `seen` that contains the own discs and their partners within `reach`, or all of
+/// `seen` if that part is not much smaller. Discs outside count in the nearest cell.
 template <class Dynamics>
 Extent EngineBase<Dynamics>::where_discs_are(const Extent& seen, double reach) const {
-    constexpr double small = 0.25; // largest share of the area of `seen`
+    constexpr double small = 0.25; // largest area of the part, relative to `seen`
     const std::span<const DiscState> discs = own();
     if (discs.empty()) return seen;
     Extent part = {seen.x_high, seen.x_low, seen.y_high, seen.y_low};
@@ -118,7 +119,7 @@ Extent EngineBase<Dynamics>::where_discs_are(const Extent& seen, double reach) c
 template <class Dynamics>
 void EngineBase<Dynamics>::refuse_long_flights([[maybe_unused]] double speed) const {
     if constexpr (Dynamics::is_periodic) {
-        constexpr double most = 15000; // counts of images reach 16000 (core/image.hpp)
+        constexpr double most = 15000; // image counts are limited to 16000 (core/image.hpp)
         const std::int64_t left = last_micro_step_ - last_sync();
         const auto interval = static_cast<double>(left > 0 ? std::min(sync_every_, left)
                                                            : sync_every_);
@@ -137,7 +138,8 @@ void EngineBase<Dynamics>::refuse_long_flights([[maybe_unused]] double speed) co
     }
 }
 
-/// Stops at the latest at the end of the step with the next sync, because that stop costs no time.
+/// Stops no later than at the end of the step that contains the next sync, because a stop there
+/// takes no extra time.
 template <class Dynamics> void EngineBase<Dynamics>::advance_towards(std::int64_t last_step) {
     const std::int64_t step_after_sync = (last_sync() + sync_every_ + micro_steps_ - 1) /
                                          micro_steps_;
@@ -246,7 +248,7 @@ template <class Dynamics> double EngineBase<Dynamics>::let_effects_act() {
 /// Lets effects act before the flights that follow a sync, also if a restart begins at this sync.
 template <class Dynamics> void EngineBase<Dynamics>::let_effects_begin() {
     const PhaseClock::Scope scope(phases_, Phase::sync);
-    discs_.forget_halo(); // the halo still has the velocities before the effects
+    discs_.forget_halo(); // the halo still has velocities from before the effects
     sync_action_.begin(discs_, n_micro_done_ / sync_every_);
     take_speed(largest_speed_of_all_states());
 }
@@ -260,8 +262,8 @@ template <class Dynamics> double EngineBase<Dynamics>::largest_speed_of_all_stat
     return std::sqrt(fastest);
 }
 
-/// Lets an effect change all radii, and perhaps the ratio of the box's sides, at most until the
-/// closest two discs touch. States are those after the sync, at time 0.
+/// Lets an effect change all radii and, if there is such an effect, the ratio of the box's sides,
+/// at most until the closest two discs touch. All states are those after the sync, at time 0.
 template <class Dynamics> void EngineBase<Dynamics>::change_volume() {
     SizeChange& sizes = *sync_action_.sizes();
     ShapeChange* const shape = sync_action_.shape();
@@ -296,7 +298,8 @@ template <class Dynamics> void EngineBase<Dynamics>::fetch_neighbours(double rea
     time_ = end;
 }
 
-/// Lets discs in. All states are at the sync. Returns the largest speed of the discs let in.
+/// Lets departed discs come in through inlets. All states are at the time of the sync. Returns the
+/// largest speed of the discs that came in.
 template <class Dynamics> double EngineBase<Dynamics>::let_discs_in(DiscSource& source) {
     const std::vector<Arrival> arrivals = source.arrivals(n_micro_done_ / sync_every_);
     if (arrivals.empty()) return 0;
@@ -321,7 +324,8 @@ template <class Dynamics> void EngineBase<Dynamics>::forget_neighbours() {
     discs_.forget_halo();
 }
 
-/// Distances are in units of the scene's sizes, because an effect may have changed all radii.
+/// Calls `visit` with distances divided by size(), because an effect may have changed all radii by
+/// this factor.
 template <class Dynamics>
 void EngineBase<Dynamics>::visit_neighbours(double reach, const SyncDiscs::VisitNear& visit) const {
     visit_pairs_within(discs_.grid(), population(), discs_.periods(), size(), reach, visit);

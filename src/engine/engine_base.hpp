@@ -76,12 +76,13 @@ protected:
     virtual void leave_window() { is_in_window_ = false; }
     /// Advances own discs to `time_`, which becomes time 0. Returns this rank's largest speed.
     virtual double restart_states();
-    /// Brings `discs_` up to date, in engines that keep their states elsewhere.
+    /// Copies the present states to `discs_`, in engines that keep states elsewhere.
     virtual void bring_states() const {}
     /// Frees the memory that is kept from one window to the next.
     virtual void drop_scratch() { discs_.drop_grid(); }
 
-    /// Cuts the box into new domains and redistributes discs from any position. **Collective.**
+    /// Cuts the box into new domains and sends each disc to its domain, from any position.
+    /// **Collective.**
     void distribute();
     /// The micro-step until which windows may extend if the run stops at `target`: `target` or
     /// later. If windows ended at all stops, runs that are inspected at each step would have a
@@ -93,10 +94,11 @@ protected:
     /// that contains its discs. If discs are clustered, cells of the whole region would hold
     /// hundreds of discs each.
     enum class Covered { domain, discs };
-    /// Redistributes discs, halo and cells at the present time, for pairs within a diameter, or
-    /// within `least_reach` if that is more. No state changes. **Collective.**
+    /// Redistributes discs, fetches the halo and sorts both into cells at the present time, for
+    /// pairs within a diameter, or within `least_reach` if that is more. States do not change.
+    /// **Collective.**
     void redistribute_now(double least_reach = 0, Covered covered = Covered::discs);
-    /// Removes departed discs from the arrays of own discs. **Collective.**
+    /// Moves departed discs out of the arrays of own discs. **Collective.**
     void set_departed_aside();
 
     /// Ends the run if discs are so fast that they cross a periodic box more often than image
@@ -108,7 +110,7 @@ protected:
     bool begin_flights();
     /// The square of the largest speed of own discs at `time`.
     double squared_speed_of_own(double time) const;
-    /// Adds the discs in a window, halo included, to this rank's work, and returns their number.
+    /// Adds the number of discs in a window, halo included, to this rank's work, and returns it.
     std::size_t count_seen() {
         rank_work_.of_discs += discs_.all().size();
         return discs_.all().size();
@@ -118,7 +120,8 @@ protected:
     /// Positions of the box's sides now, in the coordinates of stored states.
     Extent extent() const;
     std::int64_t last_sync() const { return n_micro_done_ / sync_every_ * sync_every_; }
-    /// Upper bound of the rounding error of a position, plus half the largest gap in a contact.
+    /// Upper bound of the rounding error of a position, plus half the largest gap that rounding
+    /// leaves between discs in contact.
     double place_margin() const {
         return 64 * 0x1p-53 * dynamics_.box().longest() + dynamics_.slack();
     }
@@ -165,7 +168,7 @@ private:
     /// Whether windows continue after stops. This is so if no redistribution followed the last stop
     /// between syncs, because a redistribution would make the rest of a window useless.
     bool windows_pass_stops_ = false;
-    bool is_redistributed_ = true; ///< whether discs were redistributed since the last stop
+    bool is_redistributed_ = true; ///< whether discs have been redistributed since the last stop
     /// Greatest common divisor of the micro-steps between stops since the last sync; 0 at first
     std::int64_t stop_interval_ = 0;
 };

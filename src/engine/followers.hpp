@@ -22,8 +22,8 @@ public:
     virtual void take(std::span<const Event> events) = 0;
 };
 
-/// Events that wait for their followers. Memory is kept and overwritten, because a vector would
-/// initialize it for each event, which takes a third of the time of recording the event.
+/// Recorded events that followers have not received yet. Memory is reused without initialization,
+/// because initializing an event, as a vector does, takes a third of the time of recording it.
 template <class Event> class NotedEvents {
 public:
     bool has_room() const { return n_ < n_rooms_; }
@@ -39,7 +39,7 @@ public:
 
 private:
     std::vector<Event> room_;
-    std::size_t n_ = 0, n_rooms_ = 0; ///< `n_rooms_` is kept because size() needs a division
+    std::size_t n_ = 0, n_rooms_ = 0; ///< `n_rooms_` is room_.size(), stored to save a division
 };
 
 /// The followers of events of one kind. Followers get events soon after they happen, so that memory

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far discs fly from sync to sync in a box with periodic sides. Images are counted in 15 bits
-// (core/image.hpp). So a scene whose discs fly through more boxes than that is an error at its
-// start, and a run ends if its discs become too fast later.
+// Limits the flights of discs between two syncs in a box with periodic sides, because images are
+// counted in 15 bits (core/image.hpp). A scene whose discs fly through more boxes than that is an
+// error at its start, and a run ends if its discs become too fast later.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ inline double most_lengths(const Periods& periods, double speed, double up, doub
     return std::max(rows, periods.x == 0 ? 0 : along_x * time / periods.x);
 }
 
-/// The largest speed along y of these discs.
+/// The largest |vy| of these discs.
 inline double fastest_up(std::span<const DiscState> discs) {
     double fastest = 0;
     for (const DiscState& disc : discs) fastest = std::max(fastest, std::fabs(disc.vy));

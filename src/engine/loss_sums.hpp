@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The energy that restitution has taken, and the energy that it would have taken in collisions that
-// were made elastic (dynamics/contact_guard.hpp), in sums that no order of collisions affects.
+// were made elastic (dynamics/contact_guard.hpp). The sums are exact, so they do not depend on the
+// order of collisions.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +37,7 @@ struct LossSums {
     std::uint64_t n_guarded = 0; ///< collisions made elastic, except contacts at rest
 };
 
-/// Fills in the losses of all ranks. **Collective.**
+/// Adds up the losses of all ranks and writes them to `totals`. **Collective.**
 void add_losses(const LossSums& mine, std::int64_t micro_steps, const Communicator& communicator,
                 Totals& totals);
 

@@ -37,8 +37,8 @@ void visit_near_pairs_of(const CellGrid& grid, int column, const Visit& visit) {
     }
 }
 
-/// Calls `visit(a, b)` once for each pair of discs in cells within the grid's reach, if at least
-/// one is an own disc.
+/// Calls `visit(a, b)` once for each pair of discs whose cells are within the grid's reach of each
+/// other, if at least one of the two is an own disc.
 template <class Visit> void visit_near_pairs(const CellGrid& grid, const Visit& visit) {
     for (int column = 0; column < grid.geometry().n_columns; ++column)
         visit_near_pairs_of(grid, column, visit);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A collision of two discs with the data that sums over events need: its position, the impulse, and
-// the velocities afterwards. Engines record it only if a measurement follows pairs.
+// A collision of two discs with the data that measurements need: its position, the impulse, and the
+// velocities afterwards. Engines record it only if a measurement follows pairs.
 //
-// Lasting contacts give such events at syncs, with the impulses until the next sync. All numbers
-// are in the box's own frame at the time of the collision, so velocities include gravity and drag.
-// Positions are not brought back into a periodic box.
+// At a sync, lasting contacts are reported as such events, with the impulse until the next sync.
+// All numbers are in the box's own frame at the time of the collision, so velocities include
+// gravity and drag. Positions are not brought back into a periodic box.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@
 
 namespace carrom {
 
-/// Lengths are the scene's; velocities and impulses are per step.
+/// Lengths are in the scene's unit; velocities and impulses are per step.
 struct PairEvent {
     DiscId p = 0, q = 0; ///< p is the lower id
-    /// `time` counts from the start of this micro-step; the scene's first one has the number 0
+    /// `time` counts from the start of this micro-step; the scene's first micro-step is number 0
     std::int64_t micro_step = 0;
     double time = 0;           ///< time in micro-steps
     double x = 0, y = 0;       ///< centre of p
@@ -53,9 +53,9 @@ template <class Dynamics>
 }
 
 /// Writes a collision at `time`, on the clock of the dynamics, into `event`. `p` and `q` are the
-/// stored states after it. `place` is the first disc's state before or after it, from which its
-/// position follows, and `to` is the separation at `time`. `unit` converts stored velocities to
-/// velocities per step.
+/// stored states after the collision. `place` is the first disc's state before or after it, from
+/// which the disc's position follows, and `to` is the separation at `time`. `unit` converts stored
+/// velocities to velocities per step.
 template <class Dynamics>
 [[gnu::always_inline]] inline void record_in(PairEvent& event, const Dynamics& dynamics,
                                              const DiscState& place, const Separation& to,

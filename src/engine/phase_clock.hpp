@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Measures how the wall time of a rank is spent. A `PhaseClock::Scope` adds its lifetime to
 // one phase. Scopes may be nested, and the time of an inner scope is not added to the outer one.
-// Cost: two readings of the clock a scope, so no scope should be inside a loop over discs.
+// Cost: two readings of the clock per scope, so no scope should be inside a loop over discs.
 #pragma once
 
 #include <array>

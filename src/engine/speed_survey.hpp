@@ -10,7 +10,7 @@
 
 namespace carrom {
 
-/// Counts discs of all ranks by speed; the largest one is `largest_speed` > 0. **Collective.**
+/// Counts discs of all ranks by speed; the largest speed is `largest_speed` > 0. **Collective.**
 SpeedSpread survey_speeds(std::span<const DiscState> own, double largest_speed,
                           const Communicator& communicator, int n_threads);
 

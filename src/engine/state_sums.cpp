@@ -77,7 +77,7 @@ double largest_mass(std::span<const DiscState> own, const SpeciesTable* species_
 void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
                     double velocity_unit, const Communicator& communicator, int n_threads,
                     Totals& totals) {
-    double largest = 0; // largest |vx| or |vy|: per micro-step, and after the reduction per step
+    double largest = 0; // largest |vx| or |vy|, per micro-step until it is converted below
 #pragma omp parallel for num_threads(n_threads) schedule(static) reduction(max : largest)
     for (std::size_t i = 0; i < own.size(); ++i)
         largest = std::max({largest, std::fabs(own[i].vx), std::fabs(own[i].vy)});
@@ -127,7 +127,7 @@ void measure_other_energies(std::span<const OtherEnergy> energies, std::span<con
 
 namespace {
 
-/// Relations of two discs of a population at the given time.
+/// Overlap and relative motion of pairs of discs of a population at the given time.
 class PairsAt {
 public:
     PairsAt(const Population& population, double time, const Touching& touching)
@@ -228,7 +228,7 @@ void measure_overlaps(const Population& population, const CellGrid& grid, double
     }
     totals.overlapping_pairs = communicator.sum(n_pairs);
     totals.deepest_overlap = communicator.max(deepest);
-    // Touching pairs are rare, and ranks without any need no second pass.
+    // Touching pairs are rare, so a rank without any skips the second pass.
     std::array<std::uint64_t, 3> counts{};
     if (n_touching > 0) counts = count_touching(pairs, population, grid, touching.tolerance);
     communicator.sum(counts);

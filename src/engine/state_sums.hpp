@@ -31,8 +31,8 @@ void measure_motion(std::span<const DiscState> own, const SpeciesTable* species_
                     double velocity_unit, const Communicator& communicator, int n_threads,
                     Totals& totals);
 
-/// Returns `discs`, or, if a side is open in `effects`, copies in `kept` of the discs
-/// whose centres are in the box at `time`.
+/// Returns `discs` or, if a side is open in `effects`, only the discs whose centres are in the box
+/// at `time`, copied to `kept`.
 std::span<const DiscState> discs_in_box(std::span<const DiscState> discs, const Effects& effects,
                                         const Extent& box, double time, DiscStates& kept);
 
@@ -44,14 +44,15 @@ struct EnergySetting {
     double sync_interval = 0; ///< time between syncs, in micro-steps
 };
 
-/// Adds the listed `energies` of all ranks to the totals. `shown` are the own discs in the box's
-/// own frame; `spins` are in the same order, or empty. **Collective.**
+/// Adds the energies of the kinds in `energies`, summed over all ranks, to the totals. `shown` are
+/// the own discs in the box's own frame; `spins` are in the same order, or empty. **Collective.**
 void measure_other_energies(std::span<const OtherEnergy> energies, std::span<const DiscState> shown,
                             std::span<const double> spins, const SpeciesTable& species_table,
                             const EnergySetting& setting, const Communicator& communicator,
                             Totals& totals);
 
-/// Two discs overlap if they are closer than the diameter by more than the tolerance.
+/// Two discs overlap if the diameter exceeds their distance by more than the tolerance. They touch
+/// if the two lengths differ by at most the tolerance.
 struct Touching {
     double diameter = 0, tolerance = 0;
     const SpeciesTable* species_table = nullptr; ///< null if all diameters are equal
@@ -76,15 +77,15 @@ Touching touching_of(const Dynamics& dynamics, double time, const Periods& perio
 /// Fills in the number of pairs that overlap at `time`, the deepest overlap, the numbers of pairs
 /// that touch and that slide, and the number of discs that touch several others. A touching pair
 /// slides if (d.w)^2 <= 4 tolerance sigma w.w, with separation d, relative velocity w and diameter
-/// sigma: the closest approach is then a diameter, to within a few tolerances. The grid has the
-/// discs at `time`, and its reach is a diameter plus the tolerance or more. **Collective.**
+/// sigma: the closest approach is then a diameter, to within a few tolerances. The grid must be
+/// sorted at `time` and reach at least a diameter plus the tolerance. **Collective.**
 void measure_overlaps(const Population& population, const CellGrid& grid, double time,
                       const Touching& touching, const Communicator& communicator, int n_threads,
                       Totals& totals);
 
 /// The largest factor for all radii of the scene at which no two discs of the population overlap at
-/// time 0, reduced by a share of 2^-40 for rounding. Pairs beyond the grid's reach are ignored;
-/// without any pair it is infinite. **Collective.**
+/// time 0, reduced by a relative amount of 2^-40 for rounding. Pairs beyond the grid's reach are
+/// ignored. If there are no pairs, the factor is infinite. **Collective.**
 double largest_size(const Population& population, const CellGrid& grid, const Touching& touching,
                     const Communicator& communicator, int n_threads);
 

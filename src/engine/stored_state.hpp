@@ -17,12 +17,13 @@ namespace carrom {
 struct StoredState {
     DiscStates discs;
     std::int64_t micro_steps_done = 0;
-    SideColumns columns{}; ///< values in the order of the discs; columns left out are 0
+    SideColumns columns{}; ///< values in the order of the discs; a missing column counts as 0
     /// Values that effects keep from one sync to the next (SyncEffect::kept); equal on all ranks.
     std::vector<std::int64_t> kept_by_effects{};
 };
 
-/// The side columns that move with the discs, including those that no collision changes.
+/// Moves out of `state` the side columns that are sent with the discs, including those that no
+/// collision changes.
 template <class Dynamics>
 SideColumns stored_columns(const Dynamics& dynamics, const SceneParameters& scene,
                            StoredState& state) {

@@ -44,7 +44,7 @@ void StressTerms::add_to(StressSums& sum) {
         changed |= (term_xx ^ bits_of(from)) | (term_xy ^ bits_of(from_twice)) |
                    (term_yy ^ bits_of(from));
     }
-    // if a term has changed the exponent, it is too large for this sum
+    // a term that has changed the exponent is too large to be added as an integer
     const bool are_large = changed >> 52 != 0;
     if (are_large || !std::isnormal(from)) {
         add_each(sum);
@@ -56,7 +56,7 @@ void StressTerms::add_to(StressSums& sum) {
     n_ = 0;
 }
 
-/// Slower than add_to, with the same bits.
+/// Adds each term by itself: slower than add_to, with the same bits.
 void StressTerms::add_each(StressSums& sum) const {
     for (std::size_t k = 0; k < n_; ++k) add_impulse(sum, ix_[k], iy_[k], {x_[k], y_[k]});
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time integral of stress times area, as sums over events: impulse times distance of collisions
-// between discs, and the integral of the sum of m v_a v_b (core/flight_integral.hpp). The pressure
-// tensor follows from it (docs/understanding/pressure.md).
+// The time integral of stress times area, as sums over events: impulse times separation for each
+// collision of two discs, and the integral over flights of the sum of m v_a v_b
+// (core/flight_integral.hpp). The pressure tensor follows from it (docs/understanding/pressure.md).
 //
 // Nothing is sampled, so the result does not depend on how often sums are read. Sums are exact, so
 // neither the order of collisions nor the rank that carries them out affects them. A collision of a
-// pair adds one tensor for both parts, which costs a handful of instructions more than impulse
-// times distance alone. The kinetic energy has its own sum, to which elastic collisions add
-// nothing. Whole flights cost some 60 instructions a disc, so they are added only at some syncs, as
-// rarely as the range of the sums allows.
+// pair adds one tensor for both parts, which takes a handful of instructions more than impulse
+// times separation alone. The kinetic energy has its own sum, to which elastic collisions add
+// nothing. Whole flights take some 60 instructions per disc, so they are added only at some syncs,
+// as rarely as the range of the sums allows.
 #pragma once
 
 #include <array>
@@ -26,7 +26,8 @@
 
 namespace carrom {
 
-/// The longest time, in micro-steps, between additions of flights to sums, unless syncs are rarer.
+/// The longest time between two additions of flights to the sums, in micro-steps, unless syncs are
+/// further apart.
 constexpr std::int64_t longest_flight = 1024;
 
 struct StressSums {
@@ -92,11 +93,11 @@ CARROM_DEVICE void add_flight_to(Terms& terms, Sums& sums, double mass, const Di
     if (integral.more_y != 0) terms.add(0, -mass * integral.more_y, {0, integral.more_y}, sums);
 }
 
-/// Collects terms and adds many at a time to sums, in a third of the time of single additions.
+/// Collects terms and adds many of them at once, in a third of the time of adding them one by one.
 class StressTerms {
 public:
     /// Records a collision: a disc gets the impulse (ix, iy) from another one at the separation
-    /// `to`. The term is added to `sum` now or when `add_to` is called.
+    /// `to`. The term is added to `sum` when the memory for terms is full or `add_to` is called.
     void add(double ix, double iy, const Separation& to, StressSums& sum) {
         ix_[n_] = ix;
         iy_[n_] = iy;
@@ -123,8 +124,9 @@ private:
 
 /// The stress of a collision of a pair. It is constructed before the collision, which changes the
 /// sum of m v_a v_b by -(i_a u_b + u_a i_b) / 2: i is the impulse on p, and u the sum of the
-/// relative velocities before and after. Whole flights are added later with the last velocities, so
-/// this change times the time flown is subtracted here, in one term with impulse times distance.
+/// relative velocities before and after. Whole flights are added later as if discs had always had
+/// their last velocities. So this change times the time flown is subtracted here, in one term with
+/// impulse times separation.
 template <class Dynamics> class PairStress {
 public:
     CARROM_DEVICE PairStress(const DiscState& p, const DiscState& q) : vx_(p.vx), vy_(p.vy) {
@@ -142,7 +144,7 @@ public:
                                                        const DiscState& q, const Separation& to,
                                                        double time, double flown) const {
         const double gained_x = p.vx - vx_, gained_y = p.vy - vy_;
-        // With equal masses q loses the velocity that p gains, so u / 2 follows from the new ones.
+        // With equal masses q loses what p gains, so the velocities after the collision give u / 2.
         double half_ux = (q.vx - p.vx) + gained_x, half_uy = (q.vy - p.vy) + gained_y;
         if constexpr (Dynamics::has_species) {
             half_ux = 0.5 * (wx_ + (q.vx - p.vx));
@@ -191,7 +193,7 @@ public:
                      uy = integral.weight * (disc.vy + vy_ + 2 * integral.shift_y);
         terms.add(ix, iy, {ux, uy}, sum);
         const double lost = -(ix * ux + iy * uy);
-        if (lost != 0) sum.energy.add(lost); // a mirror at rest takes no energy
+        if (lost != 0) sum.energy.add(lost); // an elastic wall at rest takes no energy
     }
 
 private:

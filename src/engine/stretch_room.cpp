@@ -12,7 +12,7 @@ namespace carrom {
 StretchRange stretch_room(const Population& population, const CellGrid& grid,
                           const Touching& touching, double margin, const Communicator& communicator,
                           int n_threads) {
-    double least = 0, most = std::numeric_limits<double>::infinity(); // of the squared factor
+    double least = 0, most = std::numeric_limits<double>::infinity(); // bounds of t^2
     const int n_columns = grid.geometry().n_columns;
 #pragma omp parallel for num_threads(n_threads) schedule(dynamic, 8) reduction(max : least)        \
     reduction(min : most)

@@ -43,20 +43,20 @@ public:
             if (DiscSource* const its = effect->source()) return its;
         return nullptr;
     }
-    /// The largest distance of pairs that effects need at this sync, divided by Engine::size.
+    /// The largest distance up to which effects need pairs at this sync, divided by Engine::size.
     double reach(std::int64_t n_syncs) const;
-    /// Call this when all states are at the time of the sync. Either there is no halo, or the halo
-    /// is as deep as the reach that `visit_near_pairs` searches. Adds to `energy_given()` and to
-    /// the sums in `notes`. **Collective.**
+    /// Lets effects act. All states must be at the time of the sync. There must be either no halo
+    /// or one that is as deep as the reach that `visit_near_pairs` searches. Adds to
+    /// `energy_given()` and to the sums in `notes`. **Collective.**
     void act(StripDiscs& discs, std::int64_t n_syncs, const SyncNotes& notes,
              const std::function<void(const SyncDiscs::VisitNear&)>& visit_near_pairs = {});
     /// Whether an effect also acts before the flights that follow a sync.
     bool begins() const;
-    /// Call this before the flights that follow a sync or the scene's start; all states are at that
-    /// time. Adds to `energy_given()`. **Collective.**
+    /// Lets effects act before the flights that follow a sync or the scene's start; all states must
+    /// be at that time. Adds to `energy_given()`. **Collective.**
     void begin(StripDiscs& discs, std::int64_t n_syncs);
-    /// Kinetic energy, rotation included, that effects have given to own discs since the run began,
-    /// with micro-steps as unit of time. For checks: its last bits depend on ranks and threads.
+    /// Kinetic energy, rotation included, that effects have given to own discs since the run began;
+    /// the unit of time is a micro-step. For checks: its last bits depend on ranks and threads.
     double energy_given() const { return energy_given_; }
 
     /// The values that effects keep: for each effect the number of its values, then the values.
@@ -74,7 +74,7 @@ private:
     PairEvent event_of(const PairImpulse& pair, std::int64_t micro_step) const;
     std::vector<std::byte> gathered(std::span<const std::byte> mine) const;
     double energy_of(const SyncDiscs& at) const;
-    /// Adds `times` times the mean flow of a sheared box to velocities and spins.
+    /// Adds the mean flow of a sheared box, multiplied by `times`, to velocities and spins.
     void add_flow(const SyncDiscs& at, double times) const;
 
     SyncEffects effects_;

@@ -18,9 +18,9 @@ struct RollbackCounts {
     std::uint64_t windows = 0, windows_redone = 0;
     std::uint64_t blocks = 0,
                   blocks_redone = 0; ///< first runs and repetitions of blocks, on all ranks
-    /// Collisions of pairs whose time equals, within rounding, the time of the last collision of
-    /// one of the discs. The order of ids or a rounding then decides the result. Counted on all
-    /// ranks since the engine began; equal for any numbers of ranks and threads.
+    /// Collisions of pairs whose time equals, within rounding, the time of the previous collision
+    /// of one of the two discs. The order of ids or a rounding then decides the result. Counted on
+    /// all ranks since the engine began; equal for any numbers of ranks and threads.
     std::uint64_t simultaneous = 0;
 };
 

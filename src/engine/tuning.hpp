@@ -15,14 +15,14 @@ struct Tuning {
     std::optional<double>
         window; ///< micro-steps per window; below 1 a micro-step is divided into parts
     std::optional<double> cell_width;  ///< width of cells relative to the window's reach
-    std::optional<double> usual_speed; ///< relative to the largest speed; cells allow for this
-                                       ///< speed if a micro-step is divided
+    std::optional<double> usual_speed; ///< speed that cells allow for if a micro-step is
+                                       ///< divided, relative to the largest speed
     std::optional<int> ranks_across;   ///< number of ranks that share a strip and cut it across
-    /// Syncs between two changes of the cuts; 0 never changes the first cuts
+    /// Number of syncs between two changes of the domains' cuts; with 0 the first cuts are kept
     std::int64_t rebalance_every = 1;
-    /// Tolerated ratio of the largest to the mean load; 0 changes the cuts every time
+    /// The cuts change if the largest load exceeds the mean load by this factor; 0: every time
     double rebalance_above = 1.05;
-    bool ends_jams = true; ///< whether a jam ends the run; not for repeated steps, which cannot jam
+    bool ends_jams = true; ///< whether a jam ends the run; false when safe steps are repeated
 };
 
 } // namespace carrom

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A collision of a disc with a side of the box or a fixed body, and the impulse and energy that the
-// disc gained. Engines record it only if a measurement follows walls. Lasting contacts give such
-// events at syncs, one event for all discs that press on a side or a body.
+// disc gained. Engines record it only if a measurement follows walls. For lasting contacts a sync
+// records one event for all discs that press on a side or a body.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct WallEvent {
     double normal = 0; ///< impulse on the disc normal to the side, positive away from it
     double along = 0;  ///< impulse on the disc along the side, in the direction of the axis
     double energy = 0; ///< energy of translation that the disc has gained
-    /// Whether this is a lasting contact with its impulse until the next sync, not a collision
+    /// Whether this is not a collision but a lasting contact, with its impulse until the next sync
     bool is_lasting = false;
     // For a fixed body, which has no side:
     std::uint32_t body = no_body; ///< number of the body's row in rows_of (dynamics/container.hpp)

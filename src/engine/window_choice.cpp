@@ -8,17 +8,18 @@ namespace carrom {
 
 namespace {
 
-// Times in nanoseconds on one core, with discs in cache. If discs are in main memory, all times are
-// some 1.2 times as long.
-constexpr double disc = 30;     ///< time for each disc in a window of any length
-constexpr double partner = 1.3; ///< time for each partner in a square with edges of one reach
-/// Time for a new prediction of a disc that was hit inside the window
+// Times in nanoseconds on one core if the discs are in the cache. If they are in main memory, all
+// times are about 1.2 times as long.
+constexpr double disc = 30;     ///< time for each disc in a window, however long the window is
+constexpr double partner = 1.3; ///< time per disc, for each other disc in a square of side reach
+/// Time to predict the next collision of a disc that has collided inside the window
 constexpr double hit = 85;
-/// Time for each partner of such a disc in a square with edges of one reach
+/// Time per such collision, for each other disc in a square whose side is the reach
 constexpr double hit_partner = 3;
 /// Time for each disc in a part of a micro-step, including the work at the end of the part.
 constexpr double disc_in_part = 65;
-/// Time for each partner in a part of a micro-step; small, because most pairs are rejected early.
+/// Time per disc in a part of a micro-step, for each other disc in this square; small, because most
+/// pairs are rejected early.
 constexpr double partner_in_part = 0.7;
 constexpr double fast_disc = 200;  ///< time for each fast disc in a part of a micro-step
 constexpr double fast_partner = 1; ///< time for each disc in cells along a fast disc's path
@@ -38,7 +39,8 @@ double cost_per_micro_step(const WindowNeeds& needs, double duration) {
     return duration > 1 ? once + again * (1 - 1 / duration) : once;
 }
 
-/// The cost of a micro-step in parts, if the share `share` of discs is faster than `usual_speed`.
+/// The cost of a micro-step that is divided into parts, if the fraction `share` of the discs is
+/// faster than `usual_speed`.
 double cost_with_fast_discs(const WindowNeeds& needs, double duration, double usual_speed,
                             double share) {
     WindowNeeds usual = needs;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chooses the length of a window of the time-stepped method. In a long window more micro-steps
 // share the cost of sorting discs into cells, but searches reach further. All ranks choose the same
-// window, because their numbers are equal. The choice affects the run's time, not its bits.
+// window, because their data are equal. The choice affects the run's time, not its bits.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,8 @@ struct SpeedSpread {
     std::array<double, n_parts> share_above{};
 
     SpeedSpread() = default;
-    /// `counts[k]`: number of discs on all ranks with speeds from k to k + 1, in units of the
-    /// largest speed over n_parts.
+    /// `counts[k]`: number of discs on all ranks with speeds from k to k + 1 parts, where a part is
+    /// `largest_speed` / n_parts.
     SpeedSpread(const Counts& counts, double largest_speed);
     double speed_of(std::size_t part) const {
         return largest * static_cast<double>(part) / n_parts;
@@ -47,11 +47,11 @@ struct WindowNeeds {
     const SpeedSpread* spread = nullptr; ///< null if the distribution of speeds is not known
 };
 
-/// Estimates the collisions per disc and micro-step, as in a dilute gas with this mean speed.
+/// Estimates the collisions per disc and micro-step from the mean speed, as for a dilute gas.
 double guess_of_hits(const WindowNeeds& needs);
 
-/// The largest distance, at a window's anchor, between two discs that collide in a window of this
-/// duration. The second form is for discs whose speed is at most `speed`.
+/// The largest distance that two discs can have at a window's anchor if they collide in the window
+/// of this duration. The second form is for discs whose speed is at most `speed`.
 double reach_of(const WindowNeeds& needs, double duration);
 double reach_of(const WindowNeeds& needs, double duration, double speed);
 
@@ -60,13 +60,13 @@ double reach_of(const WindowNeeds& needs, double duration, double speed);
 struct WindowChoice {
     int n_micro = 1;
     int n_parts = 1;
-    /// The speed that cells allow for; the few faster discs have their own searches
+    /// The speed that cells allow for; the few faster discs are searched for separately
     double usual_speed = 0;
 };
 WindowChoice choose_window(const WindowNeeds& needs, int n_left, std::optional<double> wanted);
 
-/// The longest window in a box with periodic sides, in which discs at this speed fly half a period.
-/// In longer windows many images would have to be searched. Infinite without periodic sides.
+/// The longest window in a box with periodic sides: discs at this speed fly half a period in it. In
+/// longer windows many images would have to be searched. Infinite without periodic sides.
 inline double longest_in_period(const Periods& periods, double speed) {
     return periods.are_any() ? periods.shortest() / (2 * speed)
                              : std::numeric_limits<double>::infinity();

@@ -11,12 +11,13 @@ namespace carrom {
 namespace {
 
 /// Largest number of rounds that adjust the blocks' shares, in the first window and in later ones.
-/// No round follows if the block with most work has less than `even_enough` times the mean work. A
-/// round with 128 blocks takes 40 us on one thread.
+/// The rounds end earlier if the block with the most work has at most `even_enough` times the mean
+/// work. A round with 128 blocks takes 40 us on one thread.
 constexpr int first_rounds = 10, later_rounds = 4;
 constexpr double even_enough = 1.08;
 
-/// Returns the least column or row after `first`, at most `end`, from which on `is_beyond` holds.
+/// Returns the first column or row in (first, end] from which on `is_beyond` holds. It is
+/// assumed to hold at `end`.
 template <class Claim> int first_beyond(int first, int end, const Claim& is_beyond) {
     while (end - first > 1) {
         const int middle = first + (end - first) / 2;
@@ -126,8 +127,8 @@ void BlockCuts::cut_by_work(const CellBlock& cells, const CutNeeds& needs, const
             least = most / mean;
             shares_ = shares;
         }
-        // The square root damps the change. With the full ratio, shares would overshoot each
-        // time, because the halos change with the cuts, too.
+        // The square root damps the change. With the full ratio, shares would overshoot in each
+        // round, because the halos also change with the cuts.
         for (std::size_t k = 0; k < work_.size(); ++k)
             shares[numbers_[k]] *= std::sqrt(std::clamp(mean / std::max(work_[k], 1.0), 0.5, 2.0));
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the cells of a rank are cut into blocks: into equal areas if the rank has one thread and
-// discs are spread evenly, otherwise into about equal work, because all threads wait for the block
-// with most work. The cuts affect the run's time, not its bits.
+// Cuts the cells of a rank into blocks. If the rank has one thread and discs are spread evenly, the
+// blocks have equal areas. Otherwise they have about equal work, because all threads wait for the
+// block with the most work. The cuts affect the run's time, not its bits.
 //
-// The cells are halved repeatedly across their longer side, so that blocks are as square as
-// possible, because a square has the smallest halo. The work of a block includes its halo. Cost:
-// two passes over the cells, shared by the threads, and four bytes a cell while cuts are made.
+// The cells are halved repeatedly across their longer side, so that blocks are nearly square,
+// because a square has the smallest halo. The work of a block includes its halo. Cost: two passes
+// over the cells, shared by the threads, and four bytes per cell while the blocks are cut.
 #pragma once
 
 #include <algorithm>
@@ -37,19 +37,19 @@ struct CellBlock {
 
 /// Estimates the work of a cell from its number of discs, in whole units that the caller chooses.
 struct CellWork {
-    std::uint32_t per_disc = 1, per_pair = 0; ///< work per disc, per ordered pair of its discs
+    std::uint32_t per_disc = 1, per_pair = 0; ///< per disc, and per ordered pair of discs in a cell
 
     std::uint32_t of(std::uint32_t n_discs) const {
         return n_discs * (per_disc + (n_discs - 1) * per_pair);
     }
 };
 
-/// Computes the work of all cells in any rectangle from four numbers of a table.
+/// Computes the total work of the cells in any rectangle from four numbers of a table.
 class CellSums {
 public:
-    /// `discs_before(column, row)` is the number of discs in the rows of the column below `row`,
-    /// plus a constant that may differ between columns. The work of all `cells` must be less than
-    /// 2^32. Defined in cell_sums_fill.hpp.
+    /// `discs_before(column, row)` is the number of discs in this column in all rows below `row`,
+    /// plus a constant that may differ between columns. The total work of `cells` must be less
+    /// than 2^32. Defined in cell_sums_fill.hpp.
     template <class DiscsBefore>
     void fill(const CellBlock& cells, int n_threads, const CellWork& work,
               const DiscsBefore& discs_before);
@@ -65,14 +65,14 @@ private:
     }
 
     CellBlock cells_;
-    /// For each cell, the work of the cells that are in columns to its left and in rows below it
+    /// For each cell, the total work of all cells that are both to its left and below it
     RawVector<std::uint32_t> sums_;
 };
 
 struct CutNeeds {
     std::size_t n_blocks = 1;
     int halo = 1;    ///< width of a block's halo, in cells
-    CellBlock frame; ///< all cells of the grid, also those for other ranks' discs and images
+    CellBlock frame; ///< all cells of the grid, including those for other ranks' discs and images
 };
 
 class BlockCuts {
@@ -80,7 +80,7 @@ public:
     /// Cuts `cells` into blocks of `block_columns` by `block_rows` cells.
     void cut_evenly(const CellBlock& cells, int block_columns, int block_rows);
     /// Cuts `cells` into blocks of about equal work, or into fewer blocks if there are too few
-    /// cells. `sums` has been filled for the same cells.
+    /// cells. `sums` must have been filled for the same cells.
     void cut_by_work(const CellBlock& cells, const CutNeeds& needs, const CellSums& sums);
 
     /// The blocks, in an order in which neighbours follow each other as far as possible.
@@ -91,7 +91,7 @@ public:
     std::size_t block_of(int column, int row) const;
 
 private:
-    /// A rectangle that is a block or is divided in two parts.
+    /// A rectangle that is a block or is divided into two parts.
     struct Node {
         bool is_block = true, is_cut_by_column = false;
         int cut = 0; ///< first column or row of the upper part of a divided rectangle
@@ -103,8 +103,8 @@ private:
         int at = 0;
         std::size_t middle = 0; ///< number of the first block of the upper part
     };
-    /// Decides where to cut a rectangle for the blocks [first, end). Returns false to make the
-    /// rectangle one block.
+    /// Decides where to cut a rectangle that has room for the blocks [first, end). Returns false if
+    /// the rectangle is to become one block.
     using Decision =
         std::function<bool(const CellBlock& part, std::size_t first, std::size_t end, Cut& cut)>;
 
@@ -116,7 +116,7 @@ private:
     std::vector<std::size_t> numbers_; ///< for each block, the index of its share in `shares_`
     std::vector<Node> nodes_;          ///< the first node contains all cells
     std::vector<double> work_;         ///< expected work of each block with its halo, or empty
-    std::vector<double> shares_; ///< wanted work of blocks without halos, relative to each other
+    std::vector<double> shares_; ///< wanted work of blocks without halos; only the ratios matter
 };
 
 } // namespace carrom

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Block runs for discs of several sizes. Discs lie in levels of cells by size (size_levels.hpp).
+// Block runs for discs of several sizes. Each disc is in the level of cells for its size
+// (size_levels.hpp).
 //
-// In its own level, and in levels of larger discs, a disc searches among discs and their ghosts
-// (box_layout.hpp). In levels of smaller discs, a run of the whole box searches around the disc and
-// around its images near the box, without ghosts. So the depth of a level's ghosts depends only on
-// the reach of its own discs, however large other discs are.
+// A disc's partners in its own level and in levels of larger discs are found among the discs and
+// the ghosts (box_layout.hpp) of these levels. Its partners in levels of smaller discs are found
+// without ghosts: a run of the whole box searches around the disc and around its images near the
+// box. So the ghosts of a level need no more depth than the reach of its own discs.
 #include <algorithm>
 #include <cmath>
 
@@ -64,8 +65,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::list_levels_of_all()
     lay_levels(ground.extent, periods(), ground.n_own);
 }
 
-/// Gives slots to the discs in `in_levels`, in cells that fill `extent`. `across` has the periods
-/// in a run of the whole box, else none. Discs with indices below `n_at_home` keep their images.
+/// Gives slots to the discs in `in_levels`, in cells that fill `extent`. `across` has the box's
+/// periods in a run of the whole box, and is empty in other runs. Discs with indices below
+/// `n_at_home` keep the images of their states; of other discs, the image inside the box is used.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::lay_levels(const Extent& extent, const Periods& across,
                                              std::size_t n_at_home) {
@@ -92,7 +94,7 @@ void BlockRun<Dynamics>::Scratch::lay_levels(const Extent& extent, const Periods
     cell_starts = layout.cell_starts();
 }
 
-/// Does the work of set_scales for levels. Lanes are in units of the width of the smallest cells.
+/// Like set_scales, for levels. The unit of length of the lanes is the width of the smallest cells.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales_of_levels() {
     const BlockWindow& window = ground.window;
     cell_width = levels.front().cells.width;
@@ -149,7 +151,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales_of_levels
     y_inner_high = static_cast<float>((walls.y_high - inner - y_corner) * cells_per_length);
 }
 
-/// Fills the lane of radii. Each radius is a little enlarged, so that rounding loses no contact.
+/// Fills the lane of radii. Each radius is slightly enlarged, so that rounding loses no contact.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::measure_radii() {
     const double size = dynamics.size_at(ground.window.end),
                  scale = cells_per_length * (1 + 0x1p-18);
@@ -161,8 +163,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::measure_radii() {
     }
 }
 
-/// Pairs of one level are found like pairs of equal discs. Pairs of two levels are found from the
-/// larger disc, because there are fewer large discs.
+/// Pairs within a level are found like pairs of equal discs. Pairs of discs from two levels are
+/// found by searches around the larger disc, because there are fewer large discs.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_levels() {
     for (std::size_t own = 0; own < levels.size(); ++own) {
         const LevelCells& level = levels[own];
@@ -196,8 +198,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_levels() {
     }
 }
 
-/// Fills `runs` with the slots of the level's cells that the flight box covers, and reserves memory
-/// for all these slots in the lists of partners.
+/// Fills `runs` with the ranges of slots in the level's cells that the flight box covers, and
+/// reserves memory for all these slots in the lists of partners.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::find_runs_of(const LevelCells& level, const FlightBox& box,
                                                bool with_ghosts) {
@@ -217,7 +219,8 @@ void BlockRun<Dynamics>::Scratch::find_runs_of(const LevelCells& level, const Fl
               {left, right, bottom, top});
 }
 
-/// Predicts contacts of the flight's disc with discs in `runs`, displaced by `image` if not null.
+/// Predicts contacts of the flight's disc with the discs in `runs`, to whose positions `image`
+/// (whole boxes) is added unless it is null.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::predict_seen(const Flight& flight, float radius,
                                                const Image* image) {

@@ -144,7 +144,8 @@ void BlockRun<Dynamics>::Scratch::predict_pairs_of(std::uint32_t p, std::uint32_
     for (std::size_t k = 0; k < n.q; ++k) predict_pair(q, others_partners[k]);
 }
 
-/// Predicts the contact of disc `a` with disc `b`, which `image` displaces unless it is null.
+/// Predicts the contact of disc `a` with disc `b`, to whose position `image` (whole boxes) is added
+/// unless it is null.
 template <class Dynamics>
 [[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::predict_shifted(
     std::uint32_t a, std::uint32_t b, const Image* image) {
@@ -155,8 +156,8 @@ template <class Dynamics>
         move_image(discs[b], -*image);
     if (!contact.exists()) return;
     const double time = contact.base + contact.delay;
-    // Two discs that have just collided with each other do not collide again at the same time. The
-    // remaining speed of approach is a rounding error, too small for an impulse.
+    // Two discs that have just collided with each other do not collide again at the same time. If
+    // they still approach, this is a rounding error, too small for an impulse.
     if (have_just_collided(a, b, time)) return;
     push(time, a, b, image);
 }
@@ -174,7 +175,7 @@ void BlockRun<Dynamics>::Scratch::predict_image(std::uint32_t a, std::uint32_t b
     predict_shifted(a, b, &image);
 }
 
-/// Predicts bounces at sides, and at the first fixed body that the disc meets before any side.
+/// Predicts bounces off sides, and off the first fixed body that the disc meets before any side.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::predict_walls(std::uint32_t slot) {
     const double begin = ground.window.begin, end = ground.window.end;
     const DiscState& disc = discs[slot];
@@ -255,7 +256,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::happen(const Event& 
                           discs[event.p].has_departed(); // the disc left through the first side
     if (is_corner && !has_left &&
         (Dynamics::has_mirror_walls ||
-         discs[event.p].vy == vy_before)) { // the bounce off the other side has the same time
+         discs[event.p].vy == vy_before)) { // it also bounces off the other side, at this time
         Event other_side = event;
         other_side.q = y_wall;
         other_side.generation += 1;
@@ -304,12 +305,13 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::carry_out(const Even
     }
 }
 
-/// Collides two discs, with the second disc moved to the place of its image in the event.
+/// Collides the two discs of an event. If the event is with an image of the second disc, that disc
+/// is moved to its image before the collision, and back afterwards.
 template <class Dynamics> Loss BlockRun<Dynamics>::Scratch::collide(const Event& event) {
     DiscState &p = discs[event.p], &q = discs[event.q];
     const PairStress<Dynamics> stress(p, q);
     // Times that would be equal without rounding count as equal. A disc that has not collided since
-    // the last sync has the time 0.
+    // the last sync has tau = 0.
     const double last = std::max(p.tau, q.tau);
     const bool is_simultaneous = last > 0 && event.time - last <= 0x1p-48 * event.time;
     if (Dynamics::is_periodic && event.has_image()) move_image(q, event.image());
@@ -338,7 +340,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::check_partner(std::u
                                      ground.window.speed_bound * (1 + 1e-6)});
 }
 
-/// Updates the history and the flight of one disc of an event. Own discs are listed as hit.
+/// Updates the history and the flight of one disc of an event. Adds own discs to `hit_slots`.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::note(std::uint32_t slot, std::uint32_t partner,
                                        const Event& event) {

@@ -28,8 +28,8 @@
 // The result of a run is right if h = h' for all discs of its ring, and if its own discs have not
 // collided with a disc from beyond the ring.
 //
-// The run uses copies of the discs in the order of cells, 64 bytes and four floats a disc, so that
-// the copies stay in the L2 cache. Most pairs are rejected in single precision, many at a time. A
+// The run uses copies of the discs, sorted by cell. Each copy has 64 bytes and four floats, so that
+// all copies fit into the L2 cache. Most pairs are rejected in single precision, many at a time. A
 // test in double precision decides about the rest.
 #pragma once
 
@@ -53,9 +53,9 @@
 
 namespace carrom {
 
-/// Times since the last sync. An event belongs to the window if begin < time <= end; the first
-/// window after a sync also includes events at `begin`. In later windows the preceding window has
-/// carried out these events, and a contact at `begin` is between discs that have just collided.
+/// A window; its times are since the last sync. An event belongs to the window if begin < time <=
+/// end. Only the first window after a sync also includes events at `begin`. In a later window, a
+/// contact at `begin` is one that the previous window has already carried out.
 struct BlockWindow {
     double begin = 0, end = 1;
     bool holds_begin = true;
@@ -67,22 +67,22 @@ struct BlockWindow {
     BlockWindow with_bound(double speed) const { return {begin, end, holds_begin, speed}; }
 };
 
-/// The largest distance at the start of a window between two discs that can meet in it. A number of
-/// GridGeometry::n_reach cells must cover this distance.
+/// The largest distance at the start of a window between two discs that can meet in it.
+/// GridGeometry::n_reach is the number of cells that cover this distance.
 double block_reach(const BlockWindow& window, double diameter, const Box& box);
 
-/// Empty sums with which each block's sums start, and the time of flights before the last sync.
+/// The empty sums from which each part of a block run starts, and a time that the stress lacks.
 struct BlockSums {
     StressSums no_stress{0x1p900}; ///< empty; terms are rounded to the unit of the engine's sums
     LossSums no_losses{0x1p900};   ///< empty; terms are rounded to the unit of the engine's sums
-    double flown_before = 0; ///< time of flights before the last sync that the stress still lacks
+    double flown_before = 0; ///< time of flights before the last sync, not yet added to the stress
 };
 
 /// Which collisions of own discs are recorded, and how.
 struct BlockNotes {
-    bool log = false;           ///< collisions with walls go to BlockOutcome::log
-    bool pairs_in_log = true;   ///< collisions of pairs go to BlockOutcome::log, too
-    bool pairs = false;         ///< collisions of pairs go to BlockOutcome::pairs
+    bool log = false;           ///< whether collisions with walls go to BlockOutcome::log
+    bool pairs_in_log = true;   ///< if `log`, whether collisions of pairs go there, too
+    bool pairs = false;         ///< whether collisions of pairs go to BlockOutcome::pairs
     std::int64_t last_sync = 0; ///< micro-step of the last sync, for BlockOutcome::pairs
     double velocity_unit = 1;   ///< factor from stored velocities to those in BlockOutcome::pairs
 
@@ -95,10 +95,10 @@ struct BlockGround {
     std::size_t n_own = 0;
     const SideColumns* columns = nullptr; ///< side columns of `discs`, in the same order
     const CellGrid* grid = nullptr;       ///< discs sorted by positions at the window's start
-    CellBlock own_cells; ///< cells of own discs; rounding may put such a disc beside them
+    CellBlock own_cells; ///< cells of own discs; by rounding, a disc may lie just outside of them
     BlockWindow window;
     std::span<const double> stops{}; ///< times inside the window at which parts of it end
-    /// Whether there is one run of the whole box. Then no histories are compared, and no grid is
+    /// Whether a single run covers the whole box. If so, no histories are compared, and no grid is
     /// built.
     bool is_alone = false;
     BoxCells box_cells{};                ///< cells for runs of the whole box
@@ -108,8 +108,9 @@ struct BlockGround {
     BlockNotes notes{};
 };
 
-/// The event history of a disc in a block's ring (within one reach of the block): 0 without any
-/// event, otherwise a hash of times, partners and results, whose last byte is a SpeedClass.
+/// The event history of a disc in a block's ring (within one reach of the block). It is 0 if the
+/// disc had no event, otherwise a hash of the times, partners and results of its events. The last
+/// byte of the hash is a SpeedClass.
 struct HaloRecord {
     LocalIndex index = 0;
     std::uint64_t history = 0;
@@ -125,7 +126,8 @@ inline SpeedClass speed_class_of(std::uint64_t history) {
     return static_cast<SpeedClass>(history & largest_speed_class);
 }
 
-/// A collision for the log. `time` is since the last sync; `impulse` is the length of `gained`.
+/// A collision for the log. `time` is since the last sync; `impulse` is the length of the vector
+/// (gained_x, gained_y).
 struct LoggedEvent {
     double time = 0;
     std::uint32_t generation = 0;
@@ -149,8 +151,8 @@ public:
           wall_collisions_(disc.wall_collisions & low_bits), is_departed_(disc.is_departed),
           pair_collisions_(disc.pair_collisions & low_bits), has_collided_(disc.has_collided) {}
 
-    /// Writes this state to `disc`, which must have its state of the window's start. Its counters
-    /// must have increased by less than 2^31 in the window.
+    /// Writes this state to `disc`, which must have the state of the same disc at an earlier time
+    /// of the window. Since then its counters must have increased by less than 2^31.
     void overwrite(DiscState& disc) const {
         disc.x = x_;
         disc.y = y_;
@@ -174,7 +176,7 @@ private:
 };
 static_assert(sizeof(NewState) == 48);
 
-/// The events of own discs from one stop to the next, or to the window's end.
+/// The events of own discs in one part of a window, which ends at a stop or at the window's end.
 struct BlockPart {
     /// Sizes of `hit`, `log` and `pairs` of BlockOutcome at the end of this part.
     std::size_t n_hit = 0, n_logged = 0, n_pairs = 0;
@@ -187,7 +189,7 @@ struct BlockPart {
 /// The results of a run. Lists have the entries of the first part, then of the second, and so on.
 struct BlockOutcome {
     std::vector<BlockPart> parts; ///< one part for each stop, and one for the window's end
-    std::vector<LocalIndex> hit;  ///< own discs that have collided, part by part; once in each part
+    std::vector<LocalIndex> hit;  ///< own discs that collided, part by part; each once per part
     RawVector<NewState> states;   ///< the new states of the discs in `hit`, in the same order
     SideColumns columns;          ///< side columns of the discs in `hit`, in the same order
     std::vector<HaloRecord> ring;
@@ -195,18 +197,18 @@ struct BlockOutcome {
     NotedEvents<PairEvent> pairs;
     std::uint64_t n_events = 0;  ///< number of events whose first disc is an own disc
     std::uint64_t n_carried = 0; ///< number of all events of the run, including events of the halo
-    std::uint64_t n_seen = 0;    ///< number of discs of the run, with its halo and its ghosts
+    std::uint64_t n_seen = 0;    ///< number of discs in the run, including halo discs and ghosts
     double too_fast = 0;         ///< largest speed of discs that were too fast for the window, or 0
     /// Upper bound of the speeds of discs from beyond the ring that met own discs; 0 if none did
     double far_partner = 0;
     double largest_speed_at_end = 0;
     double largest_speed = 0; ///< upper bound of the speeds of own discs during the run
     bool is_cascade = false;  ///< whether the run ended in a collision cascade
-    DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if the disc meets a wall
+    DiscId cascade_disc = 0, cascade_partner = 0; ///< equal if the partner is a wall
     double cascade_time = 0;
 
-    /// The range of the entries of a list that belong to the parts `first` to `end` - 1;
-    /// `number` is the list's member of BlockPart.
+    /// The range of a list's entries that belong to the parts `first` to `end` - 1. `number` is the
+    /// member of BlockPart for this list, such as &BlockPart::n_hit.
     std::pair<std::size_t, std::size_t> entries(std::size_t BlockPart::* number, std::size_t first,
                                                 std::size_t end) const {
         const auto up_to = [&](std::size_t part) { return part > 0 ? parts[part - 1].*number : 0; };
@@ -214,16 +216,16 @@ struct BlockOutcome {
     }
 };
 
-/// Runs blocks on one thread. It keeps its memory from block to block.
+/// Runs blocks on one thread, one after the other, and uses the same memory for all of them.
 template <class Dynamics> class BlockRun {
 public:
     explicit BlockRun(const Dynamics& dynamics);
     ~BlockRun();
     BlockRun(BlockRun&&) noexcept;
 
-    /// Runs the own discs in `block` with the discs of `halo` cells around it. Writes the history
-    /// of each own disc of the block to its place in `histories`. **Not collective**: threads may
-    /// run different blocks at the same time.
+    /// Runs the own discs in `block`, together with all discs up to `halo` cells away from it.
+    /// Writes the history of each own disc of the block to `histories`, at the disc's index. **Not
+    /// collective**: threads may run different blocks at the same time.
     void run(const BlockGround& ground, const CellBlock& block, int halo,
              std::span<std::uint64_t> histories, BlockOutcome& outcome);
 

@@ -16,7 +16,7 @@
 
 namespace carrom {
 
-/// The events of a disc in this window.
+/// A summary of a disc's events in this window.
 struct EventHistory {
     static constexpr std::uint32_t nobody = 0xfffffffd;
 
@@ -45,8 +45,8 @@ struct EventHistory {
 };
 static_assert(sizeof(EventHistory) == 16);
 
-/// The smallest rectangle, in cells, that contains the positions at the window's start of all
-/// possible partners of a flight.
+/// A rectangle that contains the positions of all possible partners of a flight at the window's
+/// start. Its coordinates are in units of the lanes.
 struct FlightBox {
     float left = 0, right = 0, bottom = 0, top = 0;
 };
@@ -64,14 +64,14 @@ struct LevelCells {
     std::uint32_t end_slot = 0;
     float columns_per_unit = 1, rows_per_unit = 1; ///< cells per unit of the lanes
     float left = 0, bottom = 0;                    ///< lower left corner, in units of the lanes
-    float farthest = 0; ///< margin of a flight box around the disc's flight, in units of the lanes
+    float farthest = 0; ///< margin of flight boxes besides a disc's radius, in units of the lanes
 
     int n_columns() const { return cells.n_columns + 2 * cells.n_beside; }
     int n_rows() const { return cells.n_rows + 2 * cells.n_above; }
 };
 
 template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
-    /// Whether discs lie in levels of cells by size. This is not done if rows of images move.
+    /// Whether discs lie in levels of cells by their size; this is not done if rows of images move.
     static constexpr bool has_sizes = Dynamics::has_species && !Dynamics::has_moving_images;
 
     explicit Scratch(const Dynamics& of_scene) : dynamics(of_scene) {}
@@ -102,7 +102,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         if constexpr (Dynamics::has_moving_images)
             vx[ghost.slot] += static_cast<float>(ghost.image.y * periods().speed * cells_per_speed);
     }
-    /// The squared speed of the fastest nearby image of the disc, in cells per window.
+    /// The square of the speed (in cells per window) of the disc's fastest nearby image.
     float lane_speed_squared(std::uint32_t slot) const {
         if constexpr (Dynamics::has_moving_images) {
             const auto [along, across] = turned(axis, vx[slot], vy[slot]);
@@ -135,10 +135,10 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         const float wide = std::abs(dx) + half_side, high = std::abs(dy) + half_side;
         return {x_middle - wide, x_middle + wide, y_middle - high, y_middle + high};
     }
-    /// Lists the runs of slots in the cells that the flight box covers.
+    /// Fills `runs` with the ranges of slots in the cells that the flight box covers.
     void find_runs(const FlightBox& box);
     /// Fills `runs` with the slots of the covered cells, and resizes the lists of partners so that
-    /// all of these slots fit. `starts` holds one column of cells after the other.
+    /// all of these slots fit. `starts` has the first slots of all cells, column after column.
     [[gnu::always_inline]] void list_runs(const std::uint32_t* starts, std::size_t column_length,
                                           const CellsOfBox& covered) {
         starts += static_cast<std::size_t>(covered.left) * column_length;
@@ -269,19 +269,19 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     int owning_column(int column) const {
         return std::clamp(column, ground.own_cells.first_column, ground.own_cells.end_column - 1);
     }
-    /// Slots of cells (column, first_row .. last_row); `cells` begins with column 0 and row 0.
+    /// Slots in rows `first_row` to `last_row` of a column, counted from the corner of `cells`.
     SlotRange cell_run(int column, int first_row, int last_row) const {
         const std::uint32_t* const starts = cell_starts.data() +
                                             static_cast<std::size_t>(column) * cell_rows;
         return {starts[first_row], starts[last_row + 1]};
     }
-    /// Slots of cells (column, first_row .. last_row), numbered as in the rank's grid.
+    /// Slots in rows `first_row` to `last_row` of a column, numbered as in the rank's grid.
     SlotRange grid_run(int column, int first_row, int last_row) const {
         return cell_run(column - cells.first_column, first_row - cells.first_row,
                         last_row - cells.first_row);
     }
 
-    /// Whether the disc is in a cell of `ring`, so that the block reports its history.
+    /// Whether the disc is in a cell of `ring`. Histories of such discs are compared by validation.
     bool is_compared(std::uint32_t slot) const {
         if (has_sizes) return is_of_ring[slot] != 0;
         const auto behind = std::upper_bound(cell_starts.begin(), cell_starts.end(), slot);
@@ -304,7 +304,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
         is_void = true;
     }
 
-    /// Records a collision after it was carried out, while the second disc is at its image's place.
+    /// Records a finished collision, before the second disc is moved back from its image.
     [[gnu::noinline]] void record_pair(const Event& event, const PairStress<Dynamics>& before,
                                        const Separation& to) {
         if (!outcome->pairs.has_room()) [[unlikely]] // this rare case has a function of its own, so
@@ -337,16 +337,16 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
 
     Dynamics dynamics;
     BlockGround ground;
-    bool is_whole = false; ///< whether the run covers the whole box, so that every disc occurs once
+    bool is_whole = false; ///< whether the run covers the whole box; then every disc occurs once
     CellBlock cells;       ///< own cells and the halo
     CellBlock ring;        ///< own cells and all cells within one reach of them
     CellBlock firsts; ///< cells of the first discs of pairs, counted from the corner of `cells`
     int n_reach_columns = 1, n_reach_rows = 1;
-    Axis axis = Axis::x; ///< the box's axis that cells, lanes, corners and bounds here call x
+    Axis axis = Axis::x; ///< the box's axis that cells, lanes and bounds of this struct call x
     double x_corner = 0, y_corner = 0, cell_width = 1, cells_per_length = 1, cells_per_speed = 1,
            windows_per_time = 1;
     float column_limit = 0, row_limit = 0;
-    float rows_per_cell = 1; ///< cell width over cell height; cells may be higher than wide
+    float rows_per_cell = 1; ///< cell width divided by cell height; cells may be higher than wide
     float touching_squared = 0,
           /// `farthest`: distance in cells by which a flight box extends beyond its flight
         farthest = 0;
@@ -371,8 +371,8 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::vector<std::uint32_t> partners,
         others_partners; ///< partners of one disc, and of the disc that it collided with
     std::vector<std::uint32_t> later,
-        /// `later`: for each disc of a column in turn, its possible partners among the discs after
-        /// it, by slots and columns; `later_ends`: for each disc, where its partners end in `later`
+        /// `later`: for each disc of a column in turn, its possible partners later in the column or
+        /// in columns to the right; `later_ends`: for each disc, where its partners end in `later`
         later_ends;
     CascadeWatch cascade_watch;
     BlockOutcome* outcome = nullptr;
@@ -380,11 +380,11 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     StressTerms stress_terms;       ///< terms that have not been added to the part's sums yet
     double bound_squared = 0;       ///< square of the speed bound
     float bound_lane_squared = 0;   ///< the square of a slightly smaller bound, in cells per window
-    double void_squared = 0;        ///< squared disc speed above which `is_void` ends the run
+    double void_squared = 0;        ///< a disc whose squared speed exceeds this ends the run
     double too_fast = 0;            ///< largest speed that was too fast for the window, or 0
     bool is_void = false;           ///< whether a disc's speed requires a far shorter window
     double largest_squared = 0;     ///< square of BlockOutcome::largest_speed
-    double classes_per_squared = 1; ///< number of speed classes for each unit of the squared speed
+    double classes_per_squared = 1; ///< number of speed classes per unit of squared speed
     // Members for discs of several sizes.
     std::vector<LevelCells> levels;                 ///< smallest discs first
     std::vector<std::vector<LocalIndex>> in_levels; ///< indices of the discs of each level
@@ -393,7 +393,7 @@ template <class Dynamics> struct BlockRun<Dynamics>::Scratch {
     std::vector<float> radii; ///< radius of the disc in each slot, in units of the lanes
     /// Margins added to sums of radii, for each pair of levels (margin_of), in units of the lanes
     std::vector<float> margins;
-    /// For each slot, whether its disc is within one reach of own cells: its history is reported
+    /// For each slot, whether its disc is within one reach of the own cells (is_compared)
     std::vector<std::uint8_t> is_of_ring;
 };
 

@@ -115,7 +115,7 @@ void BlockRun<Dynamics>::Scratch::list_discs(const CellBlock& own, int halo) {
     }
 }
 
-/// Lists all discs of the box once, and their ghosts.
+/// Lists each disc of the box once, and all ghosts.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::list_all_discs() {
     const BoxCells& box = ground.box_cells;
     is_whole = true;
@@ -149,9 +149,9 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::set_scales() {
                                    (cells.end_row - cells.first_row) / double{rows_per_cell}) +
                           8.0;
     const double reach = block_reach(window, diameter, dynamics.box()) * cells_per_length;
-    // Separations carry an error of 2^-21 of the block's size. The rounding of the filter's other
-    // terms acts like a diameter that is longer by 2^-20 d^2 / diameter, where d is the largest
-    // distance at which the filter tests a pair.
+    // Separations have errors of up to 2^-21 of the block's size. Rounding errors of the filter's
+    // other terms have the effect of a diameter that is larger by 2^-20 d^2 / diameter, where d is
+    // the largest distance at which the filter tests a pair.
     const double farthest_tried = 3 * reach + 3;
     const double touching = sigma * (1 + 0x1p-18) + 0x1p-20 * extent +
                             0x1p-20 * farthest_tried * farthest_tried / sigma;
@@ -184,7 +184,8 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own(const CellB
     }
 }
 
-/// Marks the block's own discs in a run of the whole box: those in its cells of the rank's grid.
+/// Marks the block's own discs in a run of the whole box. These are the rank's own discs that lie
+/// in the block's cells of the rank's grid.
 template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own_of_all(const CellBlock& own) {
     if (ground.is_alone) {
         is_own.assign(indices.size(), 1);
@@ -205,7 +206,7 @@ template <class Dynamics> void BlockRun<Dynamics>::Scratch::mark_own_of_all(cons
     }
 }
 
-/// Reports a disc that is the block's own or in its ring.
+/// Writes the results for a disc that is the block's own or in its ring.
 template <class Dynamics>
 [[gnu::always_inline]] inline void BlockRun<Dynamics>::Scratch::report_disc(
     std::uint32_t slot, std::span<std::uint64_t> histories, std::size_t& next,
@@ -230,8 +231,8 @@ template <class Dynamics>
 }
 
 /// Makes room in the outcome's lists for the discs that have collided in this part. Returns the
-/// first new place. Lists of the exact size save memory, because all blocks keep their outcomes
-/// until the window is validated.
+/// index of the first new entry. Lists of the exact size save memory, because all blocks keep their
+/// outcomes until the window is validated.
 template <class Dynamics> std::size_t BlockRun<Dynamics>::Scratch::make_room_for_hits() {
     const std::size_t n_before = outcome->hit.size(), n = n_before + hit_slots.size();
     outcome->hit.resize(n);
@@ -277,7 +278,7 @@ void BlockRun<Dynamics>::Scratch::report(std::span<std::uint64_t> histories) {
     outcome->largest_speed_at_end = std::sqrt(end_squared) * (1 + 0x1p-50);
 }
 
-/// Reports own discs and discs of the ring in the order of their slots.
+/// Writes the results for own discs and for discs of the ring, in order of slot.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::report_by_cells(std::span<std::uint64_t> histories,
                                                   double& end_squared) {
@@ -297,10 +298,10 @@ void BlockRun<Dynamics>::Scratch::report_by_cells(std::span<std::uint64_t> histo
     end_part();
 }
 
-/// A window is exact if no disc is ever further from its place at the window's start than the speed
-/// bound allows at that time. So a disc may exceed the bound for a while without harm if it was
-/// slower before. The run is void if the disc might get too far before the window ends, or if it
-/// collides again while it is too far away.
+/// A window is exact if no disc is ever further from its position at the window's start than a disc
+/// that has flown at the speed bound since then. So a disc may exceed the bound for a while without
+/// harm if it was slower before. The run is void if the disc might get too far before the window
+/// ends, or if it collides again while it is too far away.
 template <class Dynamics>
 void BlockRun<Dynamics>::Scratch::hold_to_schedule(std::uint32_t slot, double time) {
     const DiscState &disc = discs[slot], &at_start = ground.discs[indices[slot]];

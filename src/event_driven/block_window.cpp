@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-// Measured on one core, in nanoseconds.
+// Times in nanoseconds, measured on one core.
 constexpr double cost_per_disc = 40; ///< sorting, copying and returning a disc, once in each window
 constexpr double cost_per_copy = 40; ///< copying one disc of a block or of its halo
 constexpr double cost_per_event = 160;
@@ -26,7 +26,7 @@ constexpr double usual_speed = 0.3; ///< typical speed of a disc, relative to th
 /// most of them are compared only once.
 constexpr double discs_in_cache = 24000;
 constexpr double cost_per_choice = 5000; ///< a fixed cost of each window
-/// Estimated time of a thread's waits for other threads and for messages, in each window
+/// Estimated time for which a thread waits for other threads and for messages in each window
 constexpr double cost_per_window = 50000;
 constexpr int most_blocks_per_thread = 8;
 /// The slowest of many blocks takes longer than its cells and discs suggest, by the share
@@ -37,7 +37,8 @@ constexpr double densest_gas = 0.7; ///< largest packing fraction for which a ra
 /// far compared with their size, so few chains of collisions lead beyond it in a window.
 constexpr double thin_gas = 0.2;
 
-// Repeating a block's run with twice the halo, and its consequences, cost as much as 2.5 runs.
+// A repeated run with twice the halo costs, with its consequences, as much as 2.5 first runs.
+// Windows become shorter if more than the share `mostly_repeated` of the block runs was repeated.
 constexpr double runs_to_repeat = 2.5, mostly_repeated = 0.5;
 constexpr double memory = 0.9; ///< weight of older windows in a running mean
 /// Weight of older windows in the mean of waits. It is larger, because a single wait is long and
@@ -121,7 +122,7 @@ BlockChoice choice_of(const BlockNeeds& needs, double duration) {
     return choice;
 }
 
-/// Bounces at walls per disc and micro-step. Each needs a prediction, as a collision does.
+/// Bounces off walls per disc and micro-step. Each needs a prediction, as a collision does.
 double bounce_rate(const BlockNeeds& needs) {
     const double speed = 2 / std::numbers::pi * usual_speed * needs.speed_bound;
     return (needs.goes_round_x ? 0 : speed / needs.box.x) +

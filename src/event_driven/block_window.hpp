@@ -23,11 +23,11 @@ struct BlockNeeds {
     double collision_rate = 0; ///< collisions per disc and micro-step
     double time = 0;           ///< the window's start, since the last sync
     std::optional<int> halo;   ///< halo of a block's first run, in reaches, if a test has set it
-    bool is_one_block = false; ///< true if one block contains all discs, whatever their number
+    bool is_one_block = false; ///< true if one block contains all discs, however many
     int more_halo = 0;         ///< reaches that Caution adds to the halo
     /// Whether the halo continues beyond the sides of the box, because it contains images of discs
     bool goes_round_x = false, goes_round_y = false;
-    /// Density around a disc relative to the mean of the box, averaged over discs
+    /// Density around a disc relative to the mean density in the box, averaged over discs
     double crowding = 1;
     double n_threads = 0; ///< threads of all ranks together; 0 if each rank has one thread
     double rounds = 0;    ///< recent mean number of rounds of repeated block runs in a window
@@ -43,13 +43,13 @@ struct BlockChoice {
 };
 
 /// Chooses the window with the lowest estimated cost per micro-step, at most `longest` micro-steps
-/// long. If `wanted` is set, the window is as long as the shorter of `wanted` and `longest`.
+/// long. If `wanted` is set, the duration is the smaller of `wanted` and `longest`.
 BlockChoice choose_block_window(const BlockNeeds& needs, double longest,
                                 std::optional<double> wanted);
 
-/// Adapts to windows whose block runs had to be repeated. Each collision changes later ones, and in
-/// a dense gas or a heap such a chain spreads further in a window than the reach suggests. Then
-/// blocks get a larger halo. If that is not enough, windows become shorter.
+/// Gives blocks larger halos if many block runs had to be repeated; if that is not enough, makes
+/// windows shorter. Each collision changes later ones, and in a dense gas or a heap such a chain of
+/// collisions spreads further in a window than the reach suggests.
 class Caution {
 public:
     /// Statistics of a window; times are relative to the time of its first block runs.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the event-driven engine lays cells over its strip and cuts them into blocks.
+// How the event-driven engine lays cells over its domain and cuts them into blocks.
 #include <algorithm>
 #include <cmath>
 
@@ -10,16 +10,17 @@ namespace carrom {
 
 namespace {
 
-/// On one thread, blocks are cut by work if the fullest block has this many times the mean number
-/// of discs. Below this ratio cuts cost more than they save, and small blocks differ by chance.
+/// On one thread, blocks are cut by work if the fullest block has more than this many times the
+/// mean number of discs. At lower ratios, which small blocks may have by chance, cuts cost more
+/// than they save.
 constexpr double uneven = 1.5;
 /// If discs are clustered, there are at most this many times as many cells as in a homogeneous gas,
 /// because empty cells take memory too.
 constexpr double most_cells = 4;
-constexpr double most_units = 0x1p31; ///< sums of whole work units must fit 32 bits
+constexpr double most_units = 0x1p31; ///< sums of whole work units must fit into 32 bits
 
-/// A crowding below `least_crowding` counts as 1, because cells and windows that are chosen by the
-/// mean density cost hardly more then.
+/// A crowding of at most `least_crowding` counts as 1, because runs with cells and windows for the
+/// mean density are then hardly slower.
 constexpr double least_crowding = 2, most_crowding = 400;
 
 /// The number of own discs in all cells before this one. `row` may be one beyond the last row.
@@ -68,7 +69,7 @@ bool are_uneven(const CellGrid& grid, const std::vector<CellBlock>& blocks, int 
            uneven * static_cast<double>(all);
 }
 
-/// The smallest block of cells that contains all discs of the given block, or one cell if empty.
+/// The smallest block of cells with all discs of the given block; one cell if it has no discs.
 CellBlock without_margins(const CellBlock& block, const CellSums& sums) {
     if (sums.in(block) > 0) return sums.occupied(block);
     return {block.first_column, block.first_column + 1, block.first_row, block.first_row + 1};
@@ -80,9 +81,9 @@ int cells_along(double length, double width) {
 
 } // namespace
 
-/// Lays own columns so that they end where the domain ends, because a block's halo is counted from
-/// its last column and the rank's halo from the domain. The last own row may extend beyond the
-/// domain by less than a reach.
+/// Lays cells over the own domain and its halo. The last own column ends where the domain ends,
+/// because a block's halo is counted from its last column, but the rank's halo from the end of the
+/// domain. The last own row may extend beyond the domain by less than a reach.
 template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(double reach) {
     const Extent box = extent();
     const Domains& domains = discs_.domains();
@@ -128,7 +129,8 @@ template <class Dynamics> GridGeometry EventDrivenEngine<Dynamics>::lay_cells(do
     return geometry;
 }
 
-/// Cuts the own cells into blocks. They keep their halos if this window has deepened all halos.
+/// Cuts the own cells into blocks. If all halos have been deepened in this window, the blocks keep
+/// the depths of their halos.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::make_blocks() {
     const double n_pairs = measure_crowding(own_cells_);
     const bool is_set = block_tuning_.block_side || block_tuning_.cuts_by_work.has_value();
@@ -162,7 +164,8 @@ template <class Dynamics> std::vector<CellBlock> EventDrivenEngine<Dynamics>::cu
     return cuts_.blocks();
 }
 
-/// Cuts blocks of equal work. A disc in a dense place counts more, because it collides more often.
+/// Cuts the own cells into blocks of about equal work. A disc in a dense region counts more,
+/// because it collides more often.
 template <class Dynamics>
 std::vector<CellBlock> EventDrivenEngine<Dynamics>::cut_by_work(double n_pairs) {
     const CellGrid& grid = discs_.grid();
@@ -183,8 +186,8 @@ std::vector<CellBlock> EventDrivenEngine<Dynamics>::cut_by_work(double n_pairs) 
     cuts_.cut_by_work(own_cells_, needs, sums);
     std::vector<CellBlock> blocks = cuts_.blocks();
     // A run lists all cells of its block, so blocks are cut down to the cells that hold discs. This
-    // needs all discs in the own cells, because sums over cells miss a disc that rounding has put
-    // outside of them.
+    // is done only if all own discs lie in the own cells, because sums over cells miss a disc that
+    // rounding has put outside of them.
     if (work.per_disc > 0 && discs_in(grid, own_cells_) == discs_.n_own())
         for (CellBlock& block : blocks) block = without_margins(block, sums);
     return blocks;
@@ -197,7 +200,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::learn_crowding() {
     take_crowding(communicator_.sum(static_cast<std::uint64_t>(crowding_unit * crowding_)));
 }
 
-/// Sets `crowding_`, and returns the number of pairs in the same cell, each counted twice.
+/// Sets `crowding_`. Returns the number of pairs of discs that share a cell, each counted twice.
 template <class Dynamics>
 double EventDrivenEngine<Dynamics>::measure_crowding(const CellBlock& cells) {
     const double n_pairs = pairs_in_cells(discs_.grid(), cells, tuning_.threads);

@@ -93,13 +93,13 @@ const std::vector<LocalIndex>& BoxLayout::list_once(std::span<const DiscState> d
     return listed_;
 }
 
-/// Sorts the listed discs into the order of the cells of the box, by column and row.
+/// Sorts the listed discs by the cells of the box that contain them, column after column.
 void BoxLayout::sort(std::span<const DiscState> discs, std::span<const LocalIndex> listed,
                      std::size_t n_own, const BoxCells& cells, const Periods& periods,
                      double time) {
     const auto n_rows = static_cast<std::uint32_t>(cells.n_rows);
     const double columns_per_length = 1 / cells.width, rows_per_length = 1 / cells.height;
-    const auto cell_along = [](double place, int n) { // rounding may put a disc beside the box
+    const auto cell_along = [](double place, int n) { // by rounding, a disc may be just outside
         const int cell = !(place > 0) ? 0 : place < n ? static_cast<int>(place) : n - 1;
         return static_cast<std::uint32_t>(cell);
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells of a run of the whole box, and of discs that lie in levels by size. Each disc has one
-// slot. Cells beyond periodic sides contain ghosts: slots for images of discs. The filter
+// The cells of a run of the whole box, or of the levels for discs of several sizes. Each disc has
+// one slot. Cells beyond periodic sides contain ghosts: slots for images of discs. The filter
 // (flight_filter.hpp) tests the ghost's own flight; the predicate uses the state of its disc.
 #pragma once
 
@@ -15,8 +15,9 @@
 
 namespace carrom {
 
-/// The least width of cells in a box of this height and length. Cells are about two mean distances
-/// of discs wide, so that three cells of a column have about as many discs as a vector has lanes.
+/// The smallest width of cells in a box of this height and length. Cells are about as wide as two
+/// mean distances between discs, so that three cells of a column contain about as many discs as a
+/// vector has lanes.
 double least_cell_width(double reach, double height, double length, std::uint64_t n_discs);
 
 /// Cells of the box. Between periodic sides they fill it exactly.
@@ -27,8 +28,8 @@ struct BoxCells {
     int n_beside = 0, n_above = 0;             ///< number of columns and rows beyond each side
 };
 
-/// Cuts the box into cells that are at least `least_width` wide and high, or into one cell along an
-/// axis on which the box is shorter than that.
+/// Cuts the box into cells that are at least `least_width` wide and high. If the box is shorter
+/// than that along an axis, there is one cell along this axis.
 BoxCells cells_of_box(const Extent& extent, const Periods& periods, double reach,
                       double least_width);
 
@@ -45,14 +46,14 @@ class BoxLayout {
 public:
     static constexpr std::uint32_t none = 0xffffffff;
 
-    /// Gives slots to all discs of the box and to their ghosts, by the column and row in which they
-    /// are at `time`. `discs` begins with the rank's own discs, which lie in the box. It
-    /// ends with copies of other ranks' discs; a disc may have several copies, one for each image.
+    /// Gives slots to all discs of the box and to their ghosts, in order of the column and row that
+    /// contain them at `time`. `discs` has first the rank's own discs, which lie in the box, and
+    /// then copies of other ranks' discs. A disc may have several copies, one for each image.
     void lay(std::span<const DiscState> discs, std::size_t n_own, const BoxCells& cells,
              const Periods& periods, double time);
 
-    /// The next three functions lay discs in levels, one level after the other, each with its own
-    /// cells. `clear` removes the last layout.
+    /// The next three functions give slots to discs level by level; each level has its own cells.
+    /// `clear` removes the previous layout.
     void clear();
     /// Returns the indices of the own discs, and of one copy of each other disc.
     const std::vector<LocalIndex>& list_once(std::span<const DiscState> discs, std::size_t n_own);
@@ -83,7 +84,7 @@ public:
 
 private:
     struct Line {
-        int away = 0; ///< distance of the line of cells from the box, in box lengths
+        int away = 0; ///< signed distance from `home` to this line of cells, in box lengths
         int home = 0; ///< the line of cells in the box of which this line is an image
     };
 
@@ -101,8 +102,8 @@ private:
     /// For each slot, the indices of the ghost in it and of the first ghost of its disc, or `none`
     std::vector<std::uint32_t> ghost_at_, first_ghost_;
     std::vector<LocalIndex> listed_;        ///< each disc of the box once
-    std::vector<std::uint32_t> sorted_;     ///< indices in `listed_`, in the order of the cells
-    std::vector<std::uint32_t> cell_of_;    ///< for each entry of `listed_`, its cell
+    std::vector<std::uint32_t> sorted_;     ///< indices in the list of discs, in order of cell
+    std::vector<std::uint32_t> cell_of_;    ///< for each disc of the list, its cell
     std::vector<std::uint32_t> box_starts_; ///< first index in `sorted_` for each cell of the box
     std::vector<LocalIndex> id_table_;
 };

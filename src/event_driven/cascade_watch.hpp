@@ -9,10 +9,10 @@ namespace carrom {
 class CascadeWatch {
 public:
     /// Counts a collision. Returns true if there were too many collisions in too short a time. This
-    /// is either a cascade within `interval` micro-steps, or a rush. In a rush time advances, but
-    /// so slowly that no micro-step would end, as for a disc in a slot that is hardly wider than
-    /// it, or in a wedge whose sliding surfaces drive it. The limit is lower for walls, because
-    /// walls do not give way.
+    /// is either a cascade within `interval` micro-steps, or a rush. In a rush, time advances so
+    /// slowly that the micro-step would never end. This happens to a disc in a slot that is hardly
+    /// wider than the disc, or in a wedge whose sliding surfaces drive it. The limit is lower for
+    /// collisions with walls, because walls do not give way.
     bool add(double time, double interval, std::uint64_t n_discs, bool is_wall) {
         if (time > cascade_begin_ + interval) {
             cascade_begin_ = time;

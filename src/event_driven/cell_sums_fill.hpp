@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fills a table of sums over cells. This is in a file of its own because only files that include it
-// need OpenMP; files that only use cuts do not.
+// Fills the table of CellSums. This function has a file of its own, because it needs OpenMP, and
+// files that only use cuts do not.
 #pragma once
 
 #include "event_driven/block_cuts.hpp"

@@ -56,7 +56,7 @@ EventDrivenEngine<Dynamics>::EventDrivenEngine(const SceneParameters& scene, Sto
     learn_crowding();
     if (mean_crowding_ > 1) this->redistribute_now(); // the first cells have too many discs
     // Overlaps are always an error at the start of a scene. In a restart they are an error only if
-    // the dynamics separates overlapping discs; with other dynamics they may come from the run.
+    // the dynamics separates overlapping discs; otherwise they may have arisen during the run.
     if (dynamics_.has_pairs() && (dynamics_.parts_overlaps() || n_micro_done_ == 0))
         refuse_overlaps(population(), discs_.grid(), time_,
                         touching_of(dynamics_, time_, discs_.periods()), communicator_,
@@ -108,8 +108,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_until_exact() {
     }
 }
 
-/// Gives discs their states at `target`, or at the window's end if that is earlier. If no part of
-/// the window ends at `target`, the window is cut at the last part's end before `target`.
+/// Commits the parts of the window that end up to the time `target`. If `target` lies inside the
+/// window but no part ends there, the window is cut at the last of these ends.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::commit_until(double target) {
     const std::size_t first = n_parts_done_;
     const auto later = std::ranges::upper_bound(stops_, target);
@@ -167,8 +167,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
         return;
     }
     // Clustered discs need many cells, so the results of the last window are freed first. Otherwise
-    // memory would contain these results together with the sums for the cuts, and its peak would be
-    // 30 bytes a disc higher.
+    // these results would be in memory together with the sums for the cuts, and the peak of memory
+    // would be higher by 30 bytes per disc.
     if (mean_crowding_ > 1)
         for (Block& block : blocks_) block.outcome = {};
     discs_.sort_cells(lay_cells(reach()), time_);
@@ -178,7 +178,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::redistribute() {
         discs_.fetch_halo(time_, halo_depth_ * reach(), nullptr);
     }
     histories_.clear(); // old histories need not be copied
-    // Reserves room for a wider halo, because a list that grows is in memory twice for a while.
+    // Reserves room for a wider halo, because a list that is moved occupies memory twice meanwhile.
     histories_.reserve(discs_.all().capacity());
     histories_.resize(discs_.all().size());
     halo_counts_.n_windows += 1;
@@ -220,7 +220,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
     std::vector<std::size_t> marked;
     for (std::size_t k = 0; k < blocks_.size(); ++k)
         if (blocks_[k].is_marked != 0) marked.push_back(k);
-    // Blocks with most work begin first, so that the other threads wait less for them at the end.
+    // Blocks with the most work run first, so that the other threads wait less for them at the end.
     if (const std::vector<double>& work = cuts_.work(); work.size() == blocks_.size())
         std::ranges::stable_sort(marked, std::greater<>(), [&](std::size_t k) { return work[k]; });
     std::vector<BlockWork> round;
@@ -246,7 +246,7 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::run_blocks() {
         const BlockOutcome& outcome = blocks_[marked[i]].outcome;
         round[i].n_carried = outcome.n_carried;
         round[i].n_seen = outcome.n_seen;
-        // repeated runs do not count in the balance: the next window may repeat other blocks
+        // repeated runs do not count for the load balance: the next window may repeat other blocks
         if (round[i].is_repeated) continue;
         this->rank_work_.of_pairs += work_unit * outcome.n_carried;
         this->rank_work_.of_discs += static_cast<std::uint64_t>(
@@ -310,7 +310,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::take_speed(double la
     is_largest_known_ = false;
 }
 
-/// Ends the window at the present stop. Validation has not found the largest speed at this time.
+/// Ends the window at the present stop. The largest speed is computed here, because validation has
+/// found it only for the planned end of the window.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::leave_window() {
     end_window();
     take_speed(std::sqrt(this->squared_speed_of_own(time_)));

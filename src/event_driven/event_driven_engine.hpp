@@ -4,7 +4,7 @@
 //
 //   redistribute  discs go to the ranks that own them, the halo comes from the neighbours, and
 //                 all are sorted into cells; the own cells are cut into blocks
-//   run           a free thread runs each block with its halo, without the other blocks
+//   run           each block is run with its halo by a free thread, without the other blocks
 //   validate      for discs of each block's ring that can have met an own disc, histories are
 //                 compared with those that the discs' owners found; no own disc may have met a
 //                 disc from beyond the ring or have moved too far; blocks that fail run again with
@@ -41,7 +41,7 @@ struct BlockTuning {
     double speed_allowance = 1.08;
     bool is_validated = true; ///< whether windows are validated; false gives wrong results
     bool parts_sizes = false; ///< whether each octave of radii has a level of cells of its own
-    /// If unset, blocks are cut by work for several threads and for clustered discs
+    /// Whether blocks are cut by work; if unset, they are for several threads or clustered discs
     std::optional<bool> cuts_by_work;
     bool notes_work = false; ///< whether work is recorded for `take_work()`
 };
@@ -54,12 +54,12 @@ inline constexpr std::uint64_t work_unit = 100;
 struct BlockWork {
     std::uint64_t n_carried = 0; ///< collisions carried out, including those of halo discs
     std::uint64_t n_seen = 0;    ///< number of discs, including halo discs and ghosts
-    bool is_repeated = false;    ///< the block had run before in this window
+    bool is_repeated = false;    ///< whether the block had run before in this window
 };
 
 /// Sums over a rank's windows so far, for studies of how ranks share a box.
 struct HaloCounts {
-    std::uint64_t n_windows = 0, n_own = 0, n_halo = 0; ///< discs are summed over windows
+    std::uint64_t n_windows = 0, n_own = 0, n_halo = 0; ///< n_own, n_halo: discs of all windows
     std::uint64_t n_neighbours = 0; ///< sum over windows of the number of neighbours
 };
 
@@ -94,8 +94,8 @@ private:
         bool saw_all = false;       ///< whether the block's last run covered the whole box
         BlockOutcome outcome;
     };
-    /// `fails_later`: a block run ended in a collision cascade, perhaps only after the window's
-    /// first stop. So the window is shortened to end at that stop, and runs again.
+    /// `fails_later`: a block run ended in a collision cascade, which may lie after the window's
+    /// first stop. So the window is shortened to end at that stop, and is run again.
     enum class Verdict { exact, repeat, too_fast, fails_later };
     /// Results of the validation of a window, summed over all ranks.
     struct FoundInWindow {
@@ -177,24 +177,25 @@ private:
 
     BlockTuning block_tuning_;
     std::vector<SizeLevel> levels_;
-    double jumped_ = 0; ///< sum of bounds of the frame's jumps at syncs since the last migration
+    double jumped_ = 0; ///< upper bound of the frame's jumps at syncs since the last migration
     WindowPolicy policy_;
     double first_packing_ = 0;
-    double runaway_speed_ = 0; ///< speed that ends the run (runaway.hpp)
+    double runaway_speed_ = 0; ///< a run with faster discs is ended (runaway.hpp)
     JamWatch jam_watch_;       ///< detects a jam of growing discs
     /// If discs grow, their largest speed at the last sync or at the run's start, but at least the
     /// growth of the largest diameter per micro-step; 0 if discs do not grow
     double first_speed_ = 0;
-    /// The density of other discs in each own disc's cell, relative to the mean of the box, summed
-    /// over own discs. A homogeneous gas has terms below 1, because discs exclude each other.
+    /// The density of other discs in an own disc's cell, relative to the mean density in the box,
+    /// summed over own discs. In a homogeneous gas terms are below 1: discs exclude each other.
     double crowding_ = 0;
     double mean_crowding_ = 1; ///< mean over all discs, or 1 if it is at most 2; equal on all ranks
     /// Results of the validation of the last window, and the largest speed at its end.
     JointReduction<FoundInWindow> reduced_;
-    /// The crowding is summed in whole units of 1 / `crowding_unit`, so the order has no effect
+    /// The crowding is summed over ranks in whole units of 1 / `crowding_unit`, so that the result
+    /// does not depend on the order
     static constexpr double crowding_unit = 1024;
     bool is_largest_known_ = false; ///< whether `reduced_` has the largest speed of all ranks
-    RollbackCounts counts_;         ///< counts of windows are of all ranks, others of this rank
+    RollbackCounts counts_;         ///< counts of windows are for all ranks, others for this rank
 
     BlockChoice choice_;
     BlockWindow window_;
@@ -203,8 +204,8 @@ private:
     BlockNotes notes_;             ///< which events blocks record in this window
     bool is_alone_ = false; ///< whether a single run covers the whole box: one rank, few discs
     BoxCells box_cells_;    ///< cells for runs of the whole box
-    int common_depth_ = 0;  ///< depth in reaches that the halos of all ranks have
-    int halo_depth_ = 0;    ///< depth in reaches that this rank's halo has
+    int common_depth_ = 0;  ///< least depth of the halos of all ranks, in reaches
+    int halo_depth_ = 0;    ///< depth of this rank's halo, in reaches
     CellBlock own_cells_{0, 1, 0, 1};
     BlockCuts cuts_; ///< cuts of the own cells into blocks
     std::vector<Block> blocks_;

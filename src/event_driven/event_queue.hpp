@@ -2,8 +2,8 @@
 // Predicted collisions of one block run, sorted by their total order: time, generation, id of P,
 // wall before pair, id of Q.
 //
-// A prediction is not removed when it becomes void. It stores the versions of its discs, which grow
-// with each collision, and is skipped if they differ from the present versions. Discs without room
+// A prediction is not removed when it becomes void. It stores the sum of its discs' versions, which
+// grow with each collision, and is skipped if this sum has changed. Discs that have no room to move
 // can collide millions of times in a window, so void predictions are removed whenever the queue has
 // twice as many events as were valid at the last removal.
 #pragma once
@@ -75,7 +75,7 @@ inline auto after(const EventOrder& before) {
 
 /// Buckets of equal length in time with about one event each, so that most operations only append
 /// to a list. The bucket that is being emptied is a heap. So even if thousands of events have the
-/// same time, each costs only the logarithm of their number.
+/// same time, the cost of each grows only as the logarithm of their number.
 class EventQueue {
 public:
     /// Removes all events. New events will lie in [begin, end], and about `n_expected` of them will
@@ -142,8 +142,8 @@ private:
         return now_.size() > most_now_ || (first_free_ == none && pool_.size() > most_waiting_);
     }
 
-    /// Removes all events that are not current. It checks each event, but since the last sweep at
-    /// least as many events were added, so a sweep adds only a constant cost per event.
+    /// Removes all events that are not current. A sweep tests every event, but since the last sweep
+    /// at least half of them have been added, so sweeps add only a constant cost per event.
     template <class IsCurrent> void sweep(const EventOrder& before, const IsCurrent& is_current) {
         std::erase_if(now_, [&is_current](const Event& event) { return !is_current(event); });
         std::make_heap(now_.begin(), now_.end(), after(before));

@@ -24,7 +24,7 @@ using Slots = hn::RebindToSigned<Lanes>;
 using Vector = hn::Vec<Lanes>;
 using SlotVector = hn::Vec<Slots>;
 
-/// A flight spread over all lanes.
+/// One flight, copied into every lane of vectors.
 struct SpreadFlight {
     HeldVector<Lanes> x, y, vx, vy, rest, touching;
 
@@ -35,9 +35,9 @@ struct SpreadFlight {
 };
 
 /// Returns which of the discs at x and y with velocities vx and vy might touch the flight before
-/// the window ends: discs that are near already, and discs that approach, do not pass by and arrive
-/// in time. Each condition is a number that is negative if the condition holds, so one comparison
-/// tests all of them. `touching` is a squared distance.
+/// the window ends: those that already touch it, and those that approach it closely enough and
+/// arrive in time. Each condition is a number that is negative if the condition holds, so one
+/// comparison tests all of them. `touching` is a squared distance.
 HWY_INLINE hn::Mask<Lanes> might_touch(Vector x, Vector y, Vector vx, Vector vy, Vector touching,
                                        const SpreadFlight& p) {
     const Lanes d;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rejects most possible partners of a flight in a block run, many at a time. The filter finds the
-// flights, in some runs of slots, that might touch a given flight before the window ends. It may
-// keep pairs that never touch, but it never loses a pair that does.
+// Rejects most possible partners of a flight in a block run, many at a time. From given ranges of
+// slots, the filter picks the flights that might touch a given flight before the window ends. It
+// may keep pairs that never touch, but it never loses a pair that does.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +31,7 @@ struct PartnerCounts {
 };
 
 /// Cells of a block, column by column. Slots of cell (c, r) begin at starts[c * column_length + r]
-/// and end where the next cell begins. Each column has one more entry than rows.
+/// and end where the next cell begins. `starts` has n_rows + 1 entries for each column.
 struct CellTable {
     const std::uint32_t* starts = nullptr;
     std::size_t column_length = 0;
@@ -49,9 +49,10 @@ struct CellRows {
 /// extrapolated to the window's start, and must be readable up to `filter_padding` entries beyond
 /// the last slot.
 ///
-/// Discs touch below a certain distance. For discs of one size, `touching` is the square of this
-/// distance. For several sizes the distance is the sum of the two radii and a margin, and
-/// `touching` is the flight's radius plus the margin; in `column` it is the margin alone.
+/// Discs count as touching if their centres are closer than a certain distance. For discs of one
+/// size, `touching` is the square of this distance. For several sizes the distance is the sum of
+/// the two radii and a margin, and `touching` is the flight's radius plus the margin; in `column`
+/// it is the margin alone.
 template <class SomeLanes> struct FlightFilters {
     /// Writes the slots of `runs` whose flights might touch `flight`, except the slot of `flight`
     /// itself, and returns their number. `out` must have room for all slots of the runs and
@@ -59,17 +60,17 @@ template <class SomeLanes> struct FlightFilters {
     std::size_t (*one)(const SomeLanes& lanes, std::span<const SlotRange> runs,
                        const Flight& flight, float touching, std::uint32_t* out);
 
-    /// Filters for two flights with the same `now` in one pass, into one list for each. Neither
-    /// list has the slots of these two flights.
+    /// Does the same as `one` for two flights with the same `now` in one pass, and writes a list
+    /// for each. Neither list contains the slots of these two flights.
     PartnerCounts (*two)(const SomeLanes& lanes, std::span<const SlotRange> runs, const Flight& p,
                          const Flight& q, float p_touching, float q_touching, std::uint32_t* p_out,
                          std::uint32_t* q_out);
 
     /// Finds each pair of a disc in `rows` of a column and a later disc that might touch in the
-    /// window. The later disc follows in the same column, or is in a column to the right,
-    /// within the table's reach. Appends the later discs to `partners`, whose size never
-    /// shrinks. Appends to `ends`, for each disc of the rows, the end of its partners in that
-    /// list.
+    /// window. The later disc follows in the same column or is in a column to the right, and is
+    /// within the table's reach. Writes the later discs to the front of `partners`, whose size
+    /// never shrinks. Appends to `ends`, for each disc of the rows, the end of its partners in
+    /// that list.
     void (*column)(const SomeLanes& lanes, const CellTable& cells, int column, CellRows rows,
                    float touching, std::vector<std::uint32_t>& partners,
                    std::vector<std::uint32_t>& ends);

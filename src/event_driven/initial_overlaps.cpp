@@ -59,7 +59,7 @@ void refuse_overlaps(const Population& population, const CellGrid& grid, double 
     for (int column = 0; column < n_columns; ++column) {
         visit_near_pairs_of(grid, column, [&](LocalIndex a, LocalIndex b) {
             if (population.discs[b].id < population.discs[a].id) std::swap(a, b);
-            if (a >= population.n_own) return; // the rank that owns the lower id counts the pair
+            if (a >= population.n_own) return; // the owner of the lower id counts the pair
             const DiscState& p = population.discs[a];
             const DiscState& q = population.discs[b];
             const Shift shift = touching.periods.between(p, q, time);

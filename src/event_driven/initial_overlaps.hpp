@@ -12,9 +12,9 @@
 
 namespace carrom {
 
-/// Throws InputError on every rank, naming the first few pairs and their number, if discs overlap
-/// at `time` by more than twice the tolerance. The grid contains the population at that
-/// time and has a reach of at least a diameter. **Collective.**
+/// Throws InputError on every rank if discs overlap at `time` by more than twice the tolerance. The
+/// error names the first few pairs and the number of all pairs. The grid must contain the
+/// population at that time, and its reach must be at least the largest diameter. **Collective.**
 void refuse_overlaps(const Population& population, const CellGrid& grid, double time,
                      const Touching& touching, const Communicator& communicator, int n_threads,
                      const std::string& scene_name);

@@ -10,15 +10,15 @@ namespace {
 
 /// In one bin radii grow by at most this share of the initial radii.
 constexpr double most_in_bin = 0x1p-10;
-/// The first bin after a start is shorter than the others by this factor, because no collision rate
-/// is known before it. Each next bin is twice as long, up to the usual width.
+/// The width of the first bin after a start, relative to the usual width. It is short, because no
+/// earlier collision rate is known. Each next bin is twice as long, up to the usual width.
 constexpr double first_bin = 0x1p-10;
 /// A bin shows a jam only if it has more collisions than this: a fixed number, plus a number for
 /// each disc. Fewer collisions are no evidence, and a run needs only about a second for them.
 constexpr double enough_of_all = 0x1p20, enough_per_disc = 0x1p6;
 constexpr double ever_more = 3, rarer = 4;
-/// By the first rule a run ends only if its remaining time exceeds the time to the jam by this
-/// factor, because a dense fluid gains room when it freezes.
+/// By the first rule a run ends only if its remaining time is more than this many times the time to
+/// the jam, because a dense fluid gains room when it freezes.
 constexpr double sure = 2;
 
 } // namespace
@@ -35,7 +35,7 @@ void JamWatch::start(double time, double sync) {
     begin_bin(time, first_bin * width_);
 }
 
-/// Starts a bin. Bins end at multiples of their width; syncs are at such multiples, too.
+/// Starts a bin. No bin extends beyond a multiple of the usual width; syncs are at such multiples.
 void JamWatch::begin_bin(double begin, double width) {
     if (begin >= setting_.interval) {
         sync_ += setting_.interval;
@@ -68,13 +68,13 @@ bool JamWatch::finish_bin() {
 }
 
 void JamWatch::remember(const Past& bin) {
-    // Keeps only records whose rates differ by this factor, so that the list stays short
+    // Keeps only records whose rates differ by at least this factor, so that the list stays short
     constexpr double step = 1.05;
     while (!pasts_.empty() && pasts_.back().rate >= bin.rate) pasts_.pop_back();
     if (pasts_.empty() || bin.rate > step * pasts_.back().rate) pasts_.push_back(bin);
 }
 
-/// The latest bin whose collision rate was lower by the factor `rarer`, or null.
+/// The latest recorded bin whose collision rate was at most `rate` / `rarer`, or null.
 const JamWatch::Past* JamWatch::when_rarer(double rate) const {
     const auto after = std::ranges::upper_bound(pasts_, rate / rarer, {}, &Past::rate);
     return after == pasts_.begin() ? nullptr : &*(after - 1);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detects a jam of growing discs from numbers of collisions alone. So a jam is found at the same
-// simulated time for any windows, blocks and ranks, and on machines of any speed.
+// Detects a jam of growing discs from numbers of collisions alone. So the simulated time at which a
+// jam is found does not depend on windows, blocks and ranks, nor on the speed of the machine.
 //
 // Near a jam the room between discs shrinks steadily until a time t_J. The pressure and the speeds
 // grow as 1 / (t_J - t), because discs are compressed without loss. So the collision rate grows as
 // 1 / (t_J - t)^2, and no run reaches t_J. Two consequences are used:
-//   - if collisions are 4 times as frequent as a time dt ago, discs have room for another time dt;
+//   - if collisions are 4 times as frequent as a time dt ago, discs have room only for another dt;
 //   - if they are more than 3 times as frequent in a bin of time as in the bin of the same length
 //     before it, discs have no room for another bin.
 // Few collisions are no evidence and cost little, so both rules need a minimal number of collisions
@@ -35,7 +35,8 @@ public:
     explicit JamWatch(const Setting& setting);
 
     bool is_on() const { return setting_.rate > 0; }
-    /// Starts or continues a run at `time` after a sync; that sync is `sync` after the run's start.
+    /// Begins to watch. `time` is the time since the last sync, and `sync` is the time of that sync
+    /// since the run's start.
     void start(double time, double sync);
     /// The end of the present bin, as a time since the last sync. Windows must end there.
     double bin_end() const { return end_; }

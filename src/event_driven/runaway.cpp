@@ -20,7 +20,7 @@ bool do_surfaces_slide(const Effects& effects) {
     return false;
 }
 
-/// Ratio of speeds of the lightest and the heaviest disc that have equal energies.
+/// The speed of the lightest disc divided by the speed of the heaviest disc, at equal energies.
 double speeds_of_equal_energy(const Effects& effects) {
     if (effects.species.empty()) return 1;
     const auto [lightest, heaviest] = std::ranges::minmax(effects.species, {}, &Species::mass);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Levels of cells for discs of several sizes: each disc is in the level of its size, whose cells
-// are as wide as its discs need (Ogarko and Luding, Comput. Phys. Commun. 183, 931 (2012)).
+// Levels of cells for discs of several sizes. Each disc is in the level for its size, and the cells
+// of a level are as wide as its discs need (Ogarko and Luding, Comput. Phys. Commun. 183, 931
+// (2012)).
 //
 // With one grid for the largest discs, a small disc would test all discs within the reach of the
 // largest one. But each level costs each search a few instructions, so discs of similar size share

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The layout of a box whose rows of images slide along x. The shift is not a whole number of cells,
-// so a ghost and its disc are at different places in their cells. So each ghost is sorted into
-// cells by its own position.
+// so a ghost and its disc have different positions within their cells. Therefore each ghost is
+// sorted into cells by its own position.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

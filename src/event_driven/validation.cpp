@@ -56,7 +56,7 @@ typename EventDrivenEngine<Dynamics>::Verdict EventDrivenEngine<Dynamics>::valid
 }
 
 /// Marks the blocks whose own discs have met a disc from beyond the ring. If such a run covered
-/// the whole box, its result is right, but the other disc was faster than the bound.
+/// the whole box, it missed no disc, so the other disc must have been faster than the bound.
 template <class Dynamics> void EventDrivenEngine<Dynamics>::check_partners() {
     for (Block& block : blocks_) {
         BlockOutcome& outcome = block.outcome;
@@ -113,8 +113,8 @@ bool EventDrivenEngine<Dynamics>::could_meet(const Block& block, const DiscState
     const double at_begin = std::sqrt(dynamics_.squared_speed(disc)),
                  later = window_.speed_bound * std::sqrt(fastest / speed_classes_to_bound);
     const double speeds = block.outcome.largest_speed + std::max(at_begin, later);
-    // block_reach assumes two discs that both move at the bound, so the bound is half the sum of
-    // the two speeds.
+    // block_reach assumes that both discs move at the bound, so half the sum of their speeds is
+    // used as the bound.
     const double farthest = block_reach(window_.with_bound(speeds / 2), contact_distance(),
                                         dynamics_.box());
     return distance_from_own(block, disc) <= farthest;
@@ -132,7 +132,7 @@ double EventDrivenEngine<Dynamics>::distance_from_own(const Block& block,
                           int first, int end, int first_own, int end_own) {
         double low = first == first_own ? domain.low : corner + first * geometry.cell_width,
                high = end == end_own ? domain.high : corner + end * geometry.cell_width;
-        if (period != 0) { // own discs are the images in the box
+        if (period != 0) { // own discs are always inside the box
             low = std::max(low, 0.0);
             high = std::min(high, period);
         }
@@ -192,10 +192,10 @@ template <class Dynamics> double EventDrivenEngine<Dynamics>::price_of_reach() c
     return now > 0 ? deeper / now - 1 : 0;
 }
 
-/// Doubles the halo of each marked block that does not cover the whole box yet. (A block may cover
-/// the box now although its last run did not, because the rank's halo has become deeper for other
-/// blocks.) Ranks extend their halo as far as there are cells for it. Returns true if this is not
-/// enough, so that the halos of all ranks become deeper and all blocks have to run again.
+/// Doubles the halo of each marked block that does not yet cover the whole box. (Even if its last
+/// run did not cover the box, its next run may, because the rank's halo has become deeper for other
+/// blocks.) Ranks extend their halos as far as there are cells for them. If this is not enough,
+/// increases the depth of all ranks' halos and returns true: then all blocks have to run again.
 /// **Collective.**
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::widen_marked() {
     int deepest = halo_depth_;
@@ -278,8 +278,8 @@ template <class Dynamics> bool EventDrivenEngine<Dynamics>::sees_all(const Block
     return has_all_cells && rank_has_all;
 }
 
-/// Whether the block needs no further images along periodic axes: its cells then reach once around
-/// the box from its own cells, and one reach further at both ends.
+/// Whether the block's cells contain all images that it needs along periodic axes. This is so if
+/// they extend once around the box, and one reach further at both ends.
 template <class Dynamics>
 bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
     const GridGeometry& geometry = discs_.grid().geometry();
@@ -311,7 +311,7 @@ bool EventDrivenEngine<Dynamics>::sees_all_images(const Block& block) const {
                    own_cells_.end_row, geometry.n_rows, other_axis(axis), has_all_across);
 }
 
-/// Ends the run on all ranks if a block run of the whole box was stopped in a collision cascade.
+/// Ends the run on all ranks if a block run of the whole box ended in a collision cascade.
 /// **Collective.**
 template <class Dynamics> void EventDrivenEngine<Dynamics>::fail_on_cascade() const {
     std::string text;

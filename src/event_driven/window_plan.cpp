@@ -100,7 +100,8 @@ template <class Dynamics> void EventDrivenEngine<Dynamics>::refuse_jam() const {
                  static_cast<std::int64_t>(safe));
 }
 
-/// Whether one run of the whole box is possible and fast: one rank, few discs, no tests' settings.
+/// Whether one run of the whole box is possible and fast. This is so on one rank, with few discs,
+/// unless a test sets how blocks are cut.
 template <class Dynamics> bool EventDrivenEngine<Dynamics>::can_run_alone() const {
     const auto n = static_cast<double>(discs_.n_total());
     const bool is_few = tuning_.threads == 1 ||

@@ -8,11 +8,11 @@ namespace carrom {
 
 namespace {
 
-/// From one window to the next, the expected collision rate falls at most to this share. After
-/// random insertion discs first collide half as often as a little later, and windows planned for
-/// the lower rate would be too long.
+/// From one window to the next, the expected collision rate falls at most to this share of its
+/// value. Just after random insertion, discs collide only half as often as a little later, and
+/// windows planned for the lower rate would be too long.
 constexpr double rate_kept = 0.9;
-/// From one window to the next, the speed bound falls at most to this share.
+/// From one window to the next, the speed bound falls at most to this share of its value.
 constexpr double bound_kept = 0.99;
 constexpr double weight_of_last = 0.1; ///< weight of the last window in the running mean of rounds
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses each window of a run from the windows before it: how often discs collided, how many block
-// runs had to be repeated, and how fast discs have become. It uses only numbers that are equal
-// on all ranks. It affects the run's time, not its bits.
+// Chooses each window of a run by what happened in earlier windows: how often discs collided, how
+// many block runs had to be repeated, and how fast discs have become. The choice uses only numbers
+// that are equal on all ranks. It affects the run's time, not its bits.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct WindowSetting {
     double n_threads = 0; ///< threads of all ranks together; 0 if each rank has one thread
 };
 
-/// A window and its end. Times are in micro-steps since the last sync.
+/// The choice of a window, and the window's end in micro-steps since the last sync.
 struct PlannedWindow {
     BlockChoice choice;
     double end = 0;
@@ -28,9 +28,9 @@ struct PlannedWindow {
 
 /// A round of repeated block runs; the numbers are equal on all ranks.
 struct Rollback {
-    double repeated = 0;         ///< number of repeated block runs, as a share of all blocks
+    double repeated = 0;         ///< number of repeated block runs, divided by the number of blocks
     double waited = 0;           ///< extra time of the slowest rank, relative to its first runs
-    double price_of_reach = 0.1; ///< extra time of halos one reach deeper, relative to first runs
+    double price_of_reach = 0.1; ///< extra time with halos one reach deeper, relative to first runs
 };
 
 class WindowPolicy {
@@ -45,8 +45,9 @@ public:
     double speed_bound(double largest, double last_bound, double gained) const;
 
     /// Plans the next window, from `needs.time` to `target` or earlier. `collision_rate` is the
-    /// rate in the window before, or a guess for the first window. `longest` is the longest window
-    /// that the box permits. `needs` contains all numbers that are not learned from windows.
+    /// rate in the previous window, or a guess for the first window. `longest` is the longest
+    /// window that the box permits. `needs` must have all numbers that are not learned from past
+    /// windows.
     PlannedWindow plan(BlockNeeds needs, double collision_rate, double longest, double target);
 
     /// Call it for each round of repeated runs in the planned window.
@@ -68,13 +69,13 @@ private:
     double last_duration_ = 1;    ///< duration of the last window
     double rounds_lately_ = 0.05; ///< running mean of `n_rounds_` over windows
     double n_rounds_ = 0;         ///< number of rounds of repeated runs in the last window
-    Rollback last_;               ///< sums over these rounds, and the price in the last one
+    Rollback last_;               ///< sums over these rounds; `price_of_reach` of the last round
     Caution caution_;
 };
 
 /// The window for a higher speed bound. It is shorter, so that its reach stays the same. If the old
 /// bound was 0, because all discs were at rest until a wall reached them, the new window lasts at
-/// most as long as a flight over a diameter.
+/// most as long as a disc needs to fly one diameter at the new bound.
 BlockWindow shortened(BlockWindow window, double speed_bound, double diameter);
 
 } // namespace carrom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Operations with which several threads of a device change the same number. The serial device on
-// the CPU has one thread, so it uses plain operations.
+// Operations by which several threads of a device can safely change the same number. The serial
+// device on the CPU has one thread, so it uses plain operations.
 #pragma once
 
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernels on a GPU. nvcc compiles this file with -fmad=false, because a product fused with a sum
-// would give other bits than the CPU (docs/understanding/gpu.md).
+// The kernels on a GPU. nvcc compiles this file with -fmad=false, because a product that is fused
+// with a sum would give other bits than on the CPU (docs/understanding/gpu.md).
 #include "gpu/cuda_machine.hpp"
 #include "gpu/device_stepper.hpp"
 
@@ -12,7 +12,7 @@ std::string version_text(int version) {
     return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
 }
 
-/// One error message for each reason why no GPU can be used.
+/// Throws CollectiveError if no GPU can be used, with a different message for each reason.
 void check_gpu() {
     int driver = 0, runtime = 0, n_devices = 0;
     cudaDriverGetVersion(&driver);

@@ -16,7 +16,7 @@
 
 namespace carrom {
 
-/// Throws CollectiveError with CUDA's text of the error.
+/// Throws CollectiveError with CUDA's text, unless `error` is cudaSuccess.
 inline void check_cuda(cudaError_t error, const char* what) {
     if (error == cudaSuccess) return;
     throw CollectiveError(std::string("GPU: ") + what + ": " + cudaGetErrorString(error));

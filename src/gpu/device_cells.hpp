@@ -43,7 +43,8 @@ struct CellsAlong {
     CARROM_DEVICE int last(int cell) const {
         return is_periodic ? cell + around : std::min(cell + around, n - 1);
     }
-    /// The number of the box, 0 for the box itself, that contains this cell of the repeated row.
+    /// The periodic copy of the box that contains this cell of the repeated row: 0 is the box
+    /// itself, 1 the next copy towards larger coordinates, -1 the next one in the other direction.
     CARROM_DEVICE int box_of(int cell) const {
         if (!is_periodic || (cell >= 0 && cell < n)) return 0;
         return cell >= 0 ? cell / n : -((n - 1 - cell) / n);

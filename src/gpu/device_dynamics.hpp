@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The dynamics on a device: a scene's motion (dynamics/motion.hpp) between walls that only
-// reverse a velocity. It is plain data with the functions that StepWalls and the sums of stress
+// The dynamics on a device: a scene's motion (dynamics/motion.hpp) between walls that only reverse
+// a velocity. DeviceDynamics is plain data with the functions that StepWalls and the sums of stress
 // need.
 #pragma once
 
@@ -51,7 +51,7 @@ private:
     MirrorSides<Arithmetic> sides_;
 };
 
-/// Whether a GPU can run scenes with this dynamics.
+/// Whether a GPU can run scenes with these dynamics.
 template <class OfDynamics>
 constexpr bool is_dynamics_of_gpus = !OfDynamics::has_moving_images &&
                                      !std::is_same_v<OfDynamics, GrowingDynamics>;

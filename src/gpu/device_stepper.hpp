@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stepper (stepper.hpp): it owns the device's memory and runs the kernels in order.
+// The implementation of Stepper (stepper.hpp). It owns the device's memory and starts the kernels
+// in order.
 //
 // Bytes per disc: 64 for its state, 64 for a second copy while discs are sorted, 8 for its cell and
-// its place in the cell, and some 10 for the table of cells. Between two sorts the second copy is
+// its place in the cell, and about 10 for the table of cells. Between two sorts the second copy is
 // free, and its memory holds the next events and lists.
 #pragma once
 

@@ -18,11 +18,11 @@ namespace carrom {
 
 namespace {
 
-/// The speed up to which a window is valid, relative to the largest speed: in equilibrium, and
-/// after a window that was cut short.
+/// The speed up to which a window is valid, relative to the largest speed: the value in
+/// equilibrium, and the value after a window that was cut short.
 constexpr double least_allowance = 1.02, allowance_after_cut = 1.15;
 
-/// Reorders the discs' numbers in columns to follow a new order of discs. Ids are 0 to n - 1.
+/// Reorders `columns` from the order of `old_ids` to the order of `discs`. Ids are 0 to n - 1.
 void follow(SideColumns& columns, std::span<const DiscId> old_ids,
             std::span<const DiscState> discs) {
     std::vector<std::size_t> place_of(old_ids.size());
@@ -150,8 +150,8 @@ template <class Dynamics> void GpuEngine<Dynamics>::take_stress() {
     if (this->stress_) stepper_->take_stress(*this->stress_);
 }
 
-/// If a measurement follows the images of discs, the host carries out the sync, because it needs
-/// the flight of each disc.
+/// If a measurement follows the images of discs, the host carries out the sync, because the
+/// measurement needs the flight of each disc.
 template <class Dynamics> double GpuEngine<Dynamics>::restart_states() {
     if (!this->crossings_.empty()) {
         bring_states();
@@ -182,8 +182,8 @@ template <class Dynamics> void GpuEngine<Dynamics>::finish_sync(double largest_s
                             static_cast<double>(this->sync_every_));
 }
 
-/// The states are already on the device: effects that change velocities on the host are errors on a
-/// GPU (EffectDeclaration).
+/// The states on the device are already current, because scenes with effects that change velocities
+/// on the host cannot run on a GPU (EffectDeclaration).
 template <class Dynamics> void GpuEngine<Dynamics>::take_speed(double largest_speed) {
     largest_speed_ = std::max(largest_speed_, largest_speed);
 }

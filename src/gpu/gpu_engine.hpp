@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The time-stepped method on a device. The discs stay in the device's memory. Their states are
-// copied to the host only if something reads them: measurements, checkpoints, lines of discs,
-// totals.
+// copied to the host only for measurements, checkpoints, printed lists of discs, and totals.
 //
 // The host chooses windows and reads a few numbers after each window. A device never divides a
 // micro-step into parts: if discs are fast, a window is one micro-step, and its cells are wide
@@ -54,7 +53,7 @@ private:
     PhaseClock* copying_time_ = nullptr; ///< `phases_` without const, for copies in const functions
     mutable bool is_host_current_ = true;
     double window_speed_ = 0; ///< speed that the window's reach allows for
-    /// Bound of speeds in the next window, relative to the largest speed
+    /// Bound on speeds in the next window, relative to the largest speed
     double speed_allowance_ = 1.02;
     /// Collisions per disc and micro-step in the last sync interval
     double hits_per_micro_step_ = 0;

@@ -11,7 +11,7 @@
 //
 //   Collect      lists the discs whose first candidate is in this micro-step
 //   Match        marks discs as taken if they are each other's first candidate; other discs wait
-//   Waiting      rounds: if its partner has been taken, a disc searches again; then Match again
+//   Waiting      in rounds: waiting discs whose partner has been taken search again, then match
 //   Carry        carries out the events of the discs that have been taken
 //   Mark         lists the discs whose first candidate may have changed
 //   Renew        finds the first candidate of these discs
@@ -99,7 +99,8 @@ template <class D> struct Collect {
     }
 };
 
-/// Whether disc k and its partner, or a wall, are each other's first candidate in micro-step m.
+/// Whether disc k's first candidate, which must be in micro-step m, is a wall or a disc whose own
+/// first candidate is disc k.
 template <class D> CARROM_DEVICE bool is_mutual(const World<D>& world, LocalIndex k, int m) {
     const LocalIndex partner = world.partner[k];
     return partner == wall_index ||
@@ -120,7 +121,8 @@ template <class D> struct Match {
     }
 
 private:
-    /// Counts disc k's candidates in this micro-step; a pair counts at the disc with the lower id.
+    /// Counts disc k's candidates in this micro-step; a pair is counted at its disc with the lower
+    /// id.
     CARROM_DEVICE std::uint64_t count(LocalIndex k) const {
         const DiscState disc = world.discs[k];
         std::uint64_t n = world.dynamics.may_meet_wall(disc, m + 1) &&
@@ -144,7 +146,7 @@ template <class D> struct Waiting {
     CARROM_DEVICE const std::uint32_t* size(int round) const {
         return &world.counters->n_waiting[counter_of(round)];
     }
-    /// One thread resets the next round's list.
+    /// Empties the list of the next round; only one thread may call it.
     CARROM_DEVICE void begin(int round) const {
         world.counters->n_waiting[counter_of(round + 1)] = 0;
     }
@@ -220,8 +222,8 @@ private:
     }
 };
 
-/// Lists nearby discs of a disc with a new state: discs whose first candidate was with this disc,
-/// and discs that now meet it before their first candidate.
+/// Lists discs near a disc that has a new state: those whose first candidate was with this disc,
+/// and those that meet it, in the new state, before their first candidate.
 template <class D> struct Mark {
     World<D> world;
     int m;
@@ -276,7 +278,7 @@ template <class D> struct EndMicroStep {
     }
 };
 
-/// The sync: advances all discs to its time, which is the new origin of times.
+/// Carries out a sync: advances all discs to the time of the sync, which is time 0 afterwards.
 template <class D> struct Restart {
     World<D> world;
     double time; ///< time of the sync

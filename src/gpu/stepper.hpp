@@ -21,7 +21,7 @@ struct DeviceWindow {
     Window window;
     double reach = 0; ///< reach of the window (reach_of)
     double speed = 0; ///< speed for which the reach is enough; a faster disc cuts the window short
-    double flown = 0; ///< time of flights before the last sync, not yet in the stress sums
+    double flown = 0; ///< micro-steps flown before the last sync that the stress sums lack
     double stress_scale = 0; ///< ExactSum::scale of the sums of stress; 0: no stress is summed
 };
 
@@ -47,16 +47,17 @@ public:
     virtual void get(std::span<DiscState> discs) = 0;
     virtual DeviceOutcome run(const DeviceWindow& window) = 0;
     /// Advances all discs to `time`, which is time 0 afterwards (EngineBase::restart_states), and
-    /// returns the largest squared speed. It uses `flown` and the scale of `window`.
+    /// returns the largest squared speed. Of `window` it uses only `flown` and `stress_scale`.
     virtual double restart(double time, bool ends_flights, const DeviceWindow& window) = 0;
-    /// Adds the stress since the last call to `sums`, which must have the scale of the windows.
+    /// Adds the stress since the previous call to `sums`, which must have the `stress_scale` of the
+    /// windows since then.
     virtual void take_stress(StressSums& sums) = 0;
 };
 
 /// Device memory in bytes: for each disc, and for each run in addition to its discs.
 constexpr std::uint64_t device_bytes_per_disc = 152, device_bytes_of_run = std::uint64_t{64} << 20;
 
-/// A kind of device; each way to compile the kernels has one.
+/// A kind of device. There is one for each way to compile the kernels: GPU and CPU.
 class DeviceKind {
 public:
     virtual ~DeviceKind() = default;

@@ -23,9 +23,10 @@
 
 namespace carrom {
 
-/// Value of a partner if the disc has no candidate.
+/// Value of NextEvent::partner if the disc has no candidate.
 inline constexpr LocalIndex no_partner = wall_index - 1;
-/// Value of a micro-step, counted from the window's start, if the disc has no candidate.
+/// Value of NextEvent::micro, which counts micro-steps from the window's start, if the disc has no
+/// candidate.
 inline constexpr std::uint8_t no_micro = 255;
 static_assert(longest_window < no_micro);
 
@@ -61,7 +62,7 @@ template <class D> struct World {
     Window window;
     std::uint32_t n = 0;
     double squared_window_speed = 0; ///< square of the speed for which the reach is enough
-    double flown = 0;        ///< time of flights before the last sync, not yet in the stress sums
+    double flown = 0;        ///< micro-steps flown before the last sync that the stress sums lack
     double stress_scale = 0; ///< 0: no stress is summed
 
     DiscState* discs = nullptr;

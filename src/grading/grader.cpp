@@ -14,25 +14,25 @@ namespace carrom {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-/// A few runs show how much roundings change the discs. In a correct program the changes may be
-/// larger than in these runs by this factor.
+/// How much roundings change discs is measured in a few runs. In another correct program the
+/// changes may be larger by this factor.
 constexpr double spread_margin = 1000;
-/// The same factor as spread_margin for one step from the student's numbers of the step before.
+/// Like spread_margin, for a single step that starts from the student's numbers.
 constexpr double step_margin = 20;
 /// Number of runs from the student's numbers; all but the first vary the last digits.
 constexpr std::uint64_t own_runs = 6;
 /// In radii: if differences are this large, roundings may decide which discs collide.
 constexpr double deciding = 0.1;
 /// In radii: the largest tolerance for a number with few digits if other numbers of its step have
-/// more, because the number may have lost zeros at its end. If all lines are coarser than this, the
+/// more, because the number may have lost trailing zeros. If all lines are coarser than this, the
 /// next step cannot be computed from them.
 constexpr double coarsest_digit = 0.01;
 /// In radii: the largest tolerance for an output whose numbers all have few digits.
 constexpr double coarsest_output = 0.5;
-/// In box sides: more than the error of a step in single precision, which has 24 bits.
+/// Relative to the box: more than the error of a step in single precision, which has 24 bits.
 constexpr double float_unit = 0x1p-21;
-/// In box sides: grading ends if a disc is farther outside than this, because its numbers may
-/// overflow.
+/// Relative to the longer side of the box: grading ends if a disc is farther outside than this,
+/// because its numbers may overflow.
 constexpr double farthest = 1000;
 
 } // namespace
@@ -233,8 +233,8 @@ void Grader::move_last_digits(DiscState& disc, std::uint64_t seed) const {
     }
 }
 
-/// Computes one step of the rule from the student's lines of the step before, and further runs from
-/// states within the rounding of these lines' last digits.
+/// Computes one step of the rule from the student's lines of the previous step, and further runs
+/// from states within the rounding of these lines' last digits.
 Grader::Aim Grader::aim_from_own_lines() const {
     Aim aim;
     std::vector<double> spread(scene_.n_discs, 0);
@@ -286,7 +286,7 @@ bool Grader::hold_to(const Aim& aim, std::int64_t step) {
 }
 
 /// Accepts any result that a rounding can produce if roundings decide which discs collide. The
-/// order of equal times does not depend on roundings, so a wrong order is a mistake.
+/// order of collisions at equal times does not depend on roundings, so a wrong order is a mistake.
 bool Grader::hold_excused(const Aim& aim, std::int64_t step) {
     for (const StudentLine& line : lines()) {
         if (aim.allowed[line.id] != unlimited) continue;
@@ -338,7 +338,7 @@ std::vector<GivenDisc> Grader::given(const Aim& aim) const {
     return discs;
 }
 
-/// Records this line as the verdict if no line before has differed. Returns false.
+/// Records this line as the verdict if no earlier line has differed. Returns false.
 bool Grader::blame(const Aim& aim, DiscId id, std::int64_t step) {
     if (!verdict_.empty()) return false;
     const StudentLine& line = lines()[id];

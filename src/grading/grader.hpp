@@ -2,10 +2,11 @@
 // Compares a student's lines with the rule (rule.hpp, docs/classroom.md), step by step on one rank.
 //
 // At first lines are compared with Carrom's own run. Each disc may differ by the tolerance plus the
-// difference that roundings can have caused so far. Once this is a tenth of a radius, two correct
-// programs may differ. From then on a step is compared with the rule applied to the student's step
-// before. If points are counted, grading continues after a step that is missing or unreadable.
-// Memory: N lines. Time after Carrom's own runs: six steps of the plain rule for each step.
+// difference that roundings can have caused so far. When this is a tenth of a radius, two correct
+// programs may have different collisions. From then on a step is compared with the rule applied to
+// the student's previous step. If points are counted, grading continues after a step that is
+// missing or unreadable. Memory: N lines. Time after the end of Carrom's own runs: six steps of the
+// plain rule per step.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +32,7 @@ public:
     Grader(const SceneParameters& scene, double tolerance, std::istream& stream,
            const std::string& name, bool counts_points);
 
-    /// Whether the student's lines have replaced Carrom's own runs, which are then not needed.
+    /// Whether the student's lines have replaced Carrom's own runs, which then need not go on.
     bool has_left_runs() const { return has_left_runs_; }
     /// Reads the lines of `step`, if there are any, and compares them with the rule. `expected` is
     /// empty once `has_left_runs()` is true. Returns whether to grade the next step, which may be

@@ -67,7 +67,7 @@ void StudentOutput::leave_out(std::string_view text) {
     left_out_ = trimmed(text);
 }
 
-/// Reads on to the next line of a disc.
+/// Reads the output up to the next line of a disc, and splits this line into words.
 bool StudentOutput::next_words() {
     std::string_view text;
     for (;;) {

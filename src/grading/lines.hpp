@@ -33,7 +33,7 @@ public:
     StudentOutput(std::istream& stream, std::string name);
 
     /// Reads the next line of a disc; returns false at the end. Throws InputError if a word is not
-    /// a number, or if the output has lines but none of a disc.
+    /// a number, or if the output has lines but no line of a disc.
     bool next(StudentLine& line);
 
     /// Describes the lines that were left out; empty if there are none.

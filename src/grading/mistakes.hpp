@@ -36,16 +36,17 @@ struct Explanation {
 };
 
 /// The mistake that reproduces the line of disc `wrong` and as many other lines as possible,
-/// `micro_steps` after `state`. `given` is in the order of ids. Cost: some 30 runs of the rule.
+/// `micro_steps` after `state`. `given` is in order of id. Cost: some 30 runs of the rule.
 std::optional<Explanation> explain(const SharedState& state, std::int64_t micro_steps,
                                    const std::vector<GivenDisc>& given, DiscId wrong);
 
-/// Whether a run of the plain rule from `state` gives `discs` after `micro_steps`. Positions of
+/// Whether a run of the plain rule from `state` leads to `discs` after `micro_steps`. Positions of
 /// `discs` are compared at the time `clock` since the last sync.
 bool follows_rule(const SharedState& state, std::int64_t micro_steps,
                   const std::vector<DiscState>& discs, double clock);
 
-/// Lists the disc's contacts in the next micro-step by the rule, a line each for the first eight.
+/// Lists the disc's contacts in the next micro-step according to the rule, each of the first eight
+/// in a line of its own.
 std::string facts(const SharedState& state, DiscId id);
 
 /// Whether all lines are the discs at time 0 rounded to single precision, within the lines' digits,

@@ -180,8 +180,8 @@ bool PlainRule::is_first_of_subject(const Candidate& candidate, Mistake mistake)
     return true;
 }
 
-/// The mistake every_collision: uses the event-driven method inside the micro-step. After each
-/// collision, new collisions of its discs are searched.
+/// Carries out a micro-step with the mistake every_collision, which is to use the event-driven
+/// method: after each collision, new collisions of its discs are searched for.
 void PlainRule::keep_all_collisions(double m) {
     const auto sooner = [](const Candidate& a, const Candidate& b) {
         return place_in_order(a) < place_in_order(b);
@@ -223,9 +223,9 @@ void PlainRule::keep(const Candidate& candidate, double m) {
     if (is_first_of_subject(candidate, Mistake::one_disc_only)) discs_[subject_] = before;
 }
 
-/// Carries out each collision with the discs of the micro-step's start, as if it were the only one.
-/// A disc then flies on from its last collision. Its changes of velocity add up, or the last change
-/// alone counts, as in a program that writes the discs to a second array.
+/// Carries out each collision with the discs as they were at the start of the micro-step, as if it
+/// were the only one. A disc then flies on from its last collision. Its changes of velocity add up,
+/// or only the last change counts, as in a program that writes the discs to a second array.
 void PlainRule::keep_from_start(const Candidate& candidate, double m) {
     const auto change = [this](DiscId id, const DiscState& made) {
         const DiscState& start = start_[id];

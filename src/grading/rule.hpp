@@ -62,13 +62,13 @@ public:
         bool is_kept = false;
     };
 
-    /// `discs` are in the order of ids, as a DiscSystem stores them after `micro_steps_done`.
+    /// `discs` are in order of id, as a DiscSystem stores them after `micro_steps_done`.
     PlainRule(const RuleSetting& setting, std::vector<DiscState> discs,
               std::int64_t micro_steps_done, Mistake mistake = Mistake::none, DiscId subject = 0);
 
     void run_micro_step();
 
-    /// The discs in the order of ids, at `clock()`.
+    /// The discs in order of id, at `clock()`.
     std::span<const DiscState> discs() const { return discs_; }
     double clock() const { return static_cast<double>(micro_steps_ % setting_.sync_every); }
     /// The candidates of the last micro-step, in the order in which they were handled.

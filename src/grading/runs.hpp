@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The run that a student's output is compared with, and two runs of the same scene with other
 // roundings. One begins with changed last bits; the other also uses the course program's formulas.
-// Their differences from the first run show how large roundings have become.
+// Their differences from the first run show how far rounding errors have grown.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@
 
 namespace carrom {
 
-/// The expected discs, on rank 0, in the order of ids.
+/// The expected discs, on rank 0, in order of id.
 struct ExpectedDiscs {
     std::vector<DiscState> discs;
     double clock = 0;
-    /// For each disc the larger difference() of the other two runs from the first one
+    /// For each disc the larger of the difference()s between the first run and the other two
     std::vector<double> spread;
 };
 

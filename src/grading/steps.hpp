@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a student's output step by step. If the lines of a step are not in the order of ids, that
-// is a problem, but the step can still be graded for points.
+// Reads a student's output step by step. If the lines of a step are not in order of id, that is a
+// problem, but the step can still be graded for points.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ public:
     /// Reads all lines of the next step, which must exist. The functions below describe this step.
     void read();
 
-    /// The lines in the order of ids. If the step is whole, all lines belong to it.
+    /// The lines in order of id. Unless the step is whole, some lines may be of earlier steps.
     const std::vector<StudentLine>& lines() const { return lines_; }
     bool is_whole() const { return is_whole_; } ///< each disc has exactly one line
     bool has_counters() const { return n_counters_ == lines_.size(); }

@@ -13,8 +13,8 @@ namespace carrom {
 
 namespace {
 
-/// Distance of neighbouring points in smallest radii. Below 2/3, no step between two free
-/// neighbours can cross a segment: one of the two would be so near to it that it is blocked.
+/// Distance between neighbouring points, in smallest radii. It must be below 2/3: of two neighbours
+/// on different sides of a segment, at least one is then so near to it that it is blocked.
 constexpr double spacing = 0.66;
 constexpr double most_points = 0x1p22;
 
@@ -52,7 +52,7 @@ public:
 
     bool are_several() const { return sizes_.size() > 1; }
     std::size_t n() const { return sizes_.size(); }
-    /// The number of the closed region that contains the position; -1 if there is none.
+    /// The number of the closed region in which the position lies; -1 if it is in no closed region.
     std::int32_t closed_region(double x, double y) const {
         const std::int32_t region = region_of_[index(column_of(x), row_of(y))];
         const bool is_shut = region >= 0 && region != largest_ &&
@@ -117,8 +117,8 @@ private:
             }
     }
 
-    /// Gives all points that are connected with point `first` the next region number. Returns how
-    /// many points these are.
+    /// Assigns the next region number to all points that are connected with point `first`. Returns
+    /// the number of these points.
     std::uint64_t fill(std::size_t first) {
         const auto number = static_cast<std::int32_t>(sizes_.size());
         std::uint64_t n_points = 0;
@@ -168,7 +168,7 @@ private:
     Box box_;
     bool is_periodic_x_, is_periodic_y_;
     std::int64_t n_columns_ = 0, n_rows_ = 0;
-    /// Number of the region of each point, by column, then row
+    /// Region number of each point; points are sorted by column, then by row
     std::vector<std::int32_t> region_of_;
     std::vector<std::uint64_t> sizes_; ///< number of points in each region; 0 at an open side
     std::vector<std::size_t> to_visit_;

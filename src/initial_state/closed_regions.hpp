@@ -20,12 +20,12 @@
 namespace carrom {
 
 struct ShutInDiscs {
-    std::uint64_t n_discs = 0; ///< number of discs in closed regions; the largest never counts
+    std::uint64_t n_discs = 0; ///< discs in closed regions; the largest region never counts
     std::uint64_t n_regions = 0;
 };
 
-/// Counts the discs in closed regions; `discs` are in any distribution over the ranks. Finds
-/// nothing if the box would need more than four million points. **Collective.**
+/// Counts the discs in closed regions; `discs` are in any distribution over the ranks. Returns
+/// zeros if the box would need more than four million points. **Collective.**
 ShutInDiscs find_shut_in(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                          const Communicator& communicator);
 

@@ -28,7 +28,7 @@ bool is_frozen(const SceneParameters& scene, const InputDisc& disc) {
     return std::ranges::any_of(scene.freeze, holds) || is_in_frozen_group(scene, disc.id);
 }
 
-/// Sends the items of all ranks to every rank. **Collective.**
+/// Returns the items of all ranks on every rank. **Collective.**
 template <class Item>
 std::vector<Item> of_all_ranks(const std::vector<Item>& mine, const Communicator& ranks) {
     return send_to_owners(

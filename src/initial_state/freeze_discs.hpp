@@ -9,10 +9,10 @@
 
 namespace carrom {
 
-/// Makes some discs fixed bodies (set_frozen): discs whose centres lie in a region of
-/// `discs.freeze`, edges included, and all discs of a frozen group. The others get new ids
-/// from 0 on in the order of their old ids. Throws InputError on every rank if no disc freezes, or
-/// if all do. **Collective.**
+/// Turns some discs into fixed bodies (set_frozen): those whose centres lie in a region of
+/// `discs.freeze`, edges included, and all discs of a frozen group. The other discs are renumbered
+/// from 0, in order of their old ids. Throws InputError on every rank if no disc or every disc
+/// would freeze. **Collective.**
 void freeze_discs(SceneParameters& scene, std::vector<InputDisc>& discs, const Communicator& ranks);
 
 } // namespace carrom

@@ -105,7 +105,7 @@ std::vector<InputDisc> generated_places(const SceneParameters& scene,
 
 void refuse_in_fixed_bodies(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                             const Communicator& communicator) {
-    const std::size_t most_named = scene.groups.empty() ? 5 : 1; // a user moves a group as a whole
+    const std::size_t most_named = scene.groups.empty() ? 5 : 1; // one is enough to find the group
     const FixedBodies fixed_bodies(scene.box, scene.radius, scene.effects);
     if (!fixed_bodies.are_any()) return;
     const SpeciesTable species_table(scene.effects.species, scene.radius);

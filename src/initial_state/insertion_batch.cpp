@@ -13,16 +13,16 @@ namespace carrom {
 
 namespace {
 
-// The smallest and the largest number of proposals in a batch, mean over ranks. With fewer
-// proposals the exchange takes most of the time; more proposals need much memory.
+// The smallest and the largest number of proposals of a rank in a batch, averaged over ranks. Fewer
+// proposals would make the exchange dominate the time; more would need too much memory.
 constexpr double least_proposals = 1 << 14, most_proposals = 1 << 20;
-constexpr std::uint64_t most_rounds = 4096; ///< largest number of rounds of a batch
+constexpr std::uint64_t most_rounds = 4096; ///< largest number of rounds in a batch
 /// A batch should place at most this share of the unplaced discs, because later proposals of a
 /// placed disc in the same batch are useless.
 constexpr double most_placed_share = 0.25;
 
-/// The largest number of places that a batch should find, because every rank tests all of these
-/// places, one after the other.
+/// The largest number of discs that a batch should place. It is limited, because every rank tests
+/// all of these discs, one after the other.
 std::uint64_t most_found(std::uint64_t n_discs) {
     return std::max<std::uint64_t>(1024, n_discs / 1024);
 }
@@ -65,7 +65,7 @@ std::optional<std::uint64_t> InsertionBatch::judge(std::vector<std::uint32_t>& u
 void InsertionBatch::take_out(std::vector<Notice> found, std::vector<std::uint32_t>& unplaced) {
     std::ranges::sort(found, {}, &Notice::id);
     const std::size_t n_marks = std::bit_ceil(64 * found.size());
-    std::vector<std::uint8_t> may_be_found(n_marks, 0); // by id modulo n_marks
+    std::vector<std::uint8_t> may_be_found(n_marks, 0); // indexed by id modulo n_marks
     for (const Notice& notice : found) may_be_found[notice.id % n_marks] = 1;
     std::erase_if(unplaced, [&](std::uint32_t id) {
         return may_be_found[id % n_marks] != 0 &&
@@ -91,8 +91,8 @@ void InsertionBatch::find_free() {
     }
 }
 
-/// Lists the proposals that overlap a free proposal of the same round that has a higher id. They
-/// are listed even if they are themselves rejected because of other overlaps.
+/// Lists the proposals that overlap a free proposal of the same round with a higher id. They are
+/// listed even if they are rejected themselves because they overlap other discs.
 void InsertionBatch::find_rivals() {
     rivals_.clear();
     std::vector<Notice> images; // free proposals and their periodic images
@@ -126,7 +126,7 @@ void InsertionBatch::find_rivals() {
     }
 }
 
-/// Sends the items of all ranks to every rank. **Collective.**
+/// Replaces `items` on every rank by the items of all ranks. **Collective.**
 template <class Item> void InsertionBatch::gather_on_all(std::vector<Item>& items) const {
     if (communicator_.size() == 1) return;
     items =
@@ -143,14 +143,14 @@ bool InsertionBatch::has_rival(const Notice& notice, const Counts& counts) const
     return false;
 }
 
-/// Returns the places that have been found, in the order of rounds. The proposals of a disc after
-/// its placement do not count.
+/// Returns the proposals that place their disc, in order of round and id. Proposals that a disc
+/// makes after its placement are ignored.
 std::vector<Notice> InsertionBatch::decide() {
     std::sort(free_.begin(), free_.end(), [](const Notice& a, const Notice& b) {
         return std::tie(a.round, a.id) < std::tie(b.round, b.id);
     });
     std::sort(rivals_.begin(), rivals_.end());
-    // The round in which each placed disc was placed, by id
+    // The round in which each disc was placed; the key is its id
     std::unordered_map<std::uint32_t, std::uint32_t> round_of;
     std::vector<Notice> found;
     PointGrid near_found(0, box_.box().x, box_.box().y, box_.diameter(),

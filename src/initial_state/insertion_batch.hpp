@@ -23,9 +23,10 @@ public:
                    PlacedDiscs& placed)
         : box_(box), communicator_(communicator), n_threads_(n_threads), placed_(placed) {}
 
-    /// Places discs of `unplaced` and removes them from this list. Lists of different ranks have no
-    /// common discs; `n_left` is their total length. Returns the last round that placed a disc,
-    /// counted from `first_round`; nothing if none did. **Collective.**
+    /// Runs `n_rounds` rounds, which place discs of `unplaced`, and removes these from the list.
+    /// Lists of different ranks have no common discs; `n_left` is their total length. Returns the
+    /// last round that placed a disc, counted from `first_round`; nothing if none did.
+    /// **Collective.**
     std::optional<std::uint64_t> judge(std::vector<std::uint32_t>& unplaced, std::uint64_t n_left,
                                        std::uint64_t first_round, std::uint64_t n_rounds);
 
@@ -35,8 +36,8 @@ public:
                                 std::uint64_t n_left) const;
 
 private:
-    /// The proposals of discs `id` and `earlier`, which has the lower id, overlap in this round.
-    /// The disc `id` is not placed in this round, unless `earlier` was placed in a previous round.
+    /// The proposals of discs `id` and `earlier`, which has the lower id, overlap in round `round`.
+    /// So disc `id` is not placed in that round, unless `earlier` was placed in a previous round.
     struct Rival {
         std::uint32_t round = 0, id = 0, earlier = 0;
 

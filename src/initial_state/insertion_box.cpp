@@ -21,8 +21,8 @@ void InsertionBox::propose(const Proposers& proposers, std::span<const Notice> u
     const std::uint64_t n = proposers.ids.size() * proposers.n_rounds;
     concerning.clear();
     if (communicator_.size() == 1) return make_proposals(proposers, 0, n, n_threads, concerning);
-    // Reserves all memory now, because a list that grows is in memory twice for a while. Reserved
-    // memory takes no space before it is used.
+    // Reserves all memory now, because a growing list is copied and so needs more than twice its
+    // size. Reserved memory takes no space before it is used.
     concerning.reserve(static_cast<std::size_t>(1.1 * static_cast<double>(n + updates.size())) +
                        1000);
     const double n_of_rank = static_cast<double>(proposers.n_of_all * proposers.n_rounds) /

@@ -68,7 +68,7 @@ public:
     PointGrid grid(double n_points) const {
         return {strip_low(), strip_high(), box_.y, diameter_, n_points};
     }
-    /// Distance of two centres beyond which discs of any radius in the scene cannot overlap.
+    /// Distance between two centres beyond which discs of any radius in the scene cannot overlap.
     double margin() const { return diameter_ * (1 + 1e-9); }
 
     std::size_t owner(double x) const {
@@ -123,7 +123,7 @@ public:
         return fixed_bodies_.do_overlap(x, y, radius_of(notice.id));
     }
 
-    /// Whether random insertion has to find the disc's position.
+    /// Whether the disc is placed by random insertion; groups may have other generators.
     bool is_random(DiscId id) const {
         DiscId end = 0;
         for (const DiscGroup& group : scene_.groups)
@@ -131,16 +131,17 @@ public:
         return true;
     }
 
-    /// Returns the `given` discs of all ranks that this rank's strip needs. **Collective.**
+    /// Returns those `given` discs, of all ranks, that this rank's strip needs. **Collective.**
     std::vector<Notice> gather(const std::vector<InputDisc>& given) const;
 
-    /// Each rank makes its proposals. Puts the proposals that this rank needs, and those `updates`
-    /// of other ranks that it needs, into `concerning`. **Collective.**
+    /// Each rank makes its proposals. Fills `concerning` with the proposals of all ranks that this
+    /// rank needs, and with those `updates` of other ranks that it needs. **Collective.**
     void propose(const Proposers& proposers, std::span<const Notice> updates, int n_threads,
                  RawVector<Notice>& concerning) const;
 
     /// Calls `visit(place)` for the position of a notice and for each of its images near the box,
-    /// and stops once `visit` returns true. A grid puts outside images into its outermost cells.
+    /// and stops once `visit` returns true. Grids assign images outside of them to their outermost
+    /// cells.
     template <class Visit> bool for_images(const Notice& notice, const Visit& visit) const {
         if (visit(Point{notice.x, notice.y})) return true;
         if (!periods_.are_any()) return false;
@@ -163,8 +164,8 @@ public:
     }
 
 private:
-    /// The position of a disc in a region, from two random numbers between 0 and 1. If a region
-    /// covers a whole period, discs may lie across the ends of the region.
+    /// The position of a disc in a region, from two random numbers between 0 and 1. Along an axis
+    /// on which the region covers a whole period, discs may lie across its ends.
     Point place_in(const StartRegion& region, double radius, Point numbers) const {
         const auto [x_low, y_low] = turned(axis_, region.x_low, region.y_low);
         const auto [x_high, y_high] = turned(axis_, region.x_high, region.y_high);

@@ -17,7 +17,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double per_row = 0.8660254037844386; ///< height of a row over the spacing a: sqrt(3) / 2
+constexpr double per_row = 0.8660254037844386; ///< ratio of row height to spacing a: sqrt(3) / 2
 
 /// The free sites of a lattice of m rows.
 class FreeSites {
@@ -29,7 +29,7 @@ public:
           y0_(is_periodic_y_ ? 0 : height_ / (2 * per_row)),
           columns_(static_cast<std::uint64_t>(box_.x * per_row / height_)),
           width_(box_.x / static_cast<double>(columns_)),
-          // Half the spacing, reduced by 2^-30 of it, which is more than the rounding of positions.
+          // Half the spacing, minus 2^-30 of it, because positions are rounded.
           clearance_(height_ / (2 * per_row) * (1 - 0x1p-30)),
           fixed_bodies_(box_, clearance_, scene.effects),
           own_(slab_of_rank(ranks.rank(), n_rows, ranks.size())), free_in_rows_(n_rows) {
@@ -85,8 +85,8 @@ private:
     std::vector<std::uint64_t> free_in_rows_;
 };
 
-/// Finds the smallest even number of rows with enough sites. It is even, because a box that is
-/// periodic along y needs an even number.
+/// Finds the smallest even number of rows with enough sites. Boxes that are periodic along y need
+/// an even number.
 class RowSearch {
 public:
     RowSearch(const SceneParameters& scene, const Communicator& ranks)
@@ -108,7 +108,7 @@ public:
     }
 
 private:
-    /// The number of pairs of rows that is tried first: 90 % of those needed without fixed bodies.
+    /// The number of pairs of rows to try first: 90 % of the number needed without fixed bodies.
     std::uint64_t first_guess() const {
         const double area = scene_.area() / static_cast<double>(scene_.n_discs),
                      height = std::sqrt(area * per_row);

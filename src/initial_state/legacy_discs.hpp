@@ -26,7 +26,7 @@ public:
     LegacyRandom(const LegacyRandom&) = delete;
     LegacyRandom& operator=(const LegacyRandom&) = delete;
 
-    /// low + (high - low) * rand() / RAND_MAX; can be equal to `low` and to `high`.
+    /// low + (high - low) * rand() / RAND_MAX; both `low` and `high` are possible results.
     double uniform(double low, double high);
 
 private:
@@ -34,13 +34,13 @@ private:
     random_data data_{};
 };
 
-/// Positions of all discs in the order of ids; nothing if the box is so full that a bounded number
-/// of draws is not enough.
+/// Positions of all discs in order of id; nothing if the box is so full that a bounded number of
+/// draws is not enough.
 std::optional<std::vector<Point>> legacy_positions(const SceneParameters& scene,
                                                    LegacyRandom& random);
 
-/// Disc `id` at `place`. Draws its velocity (lengths per step) from `random`, so call it in the
-/// order of ids.
+/// Disc `id` at `place`. Draws its velocity (lengths per step) from `random`, so call it in order
+/// of id.
 InputDisc legacy_disc(const SceneParameters& scene, LegacyRandom& random, DiscId id, Point place);
 
 } // namespace carrom

@@ -26,8 +26,8 @@ DiscReader::InParts on_threads(int n_threads) {
     };
 }
 
-/// The size in bytes of the scene's file of discs, found by rank 0, or 0 if the file is missing or
-/// a pipe and so cannot be read in parts. **Collective.**
+/// Size in bytes of the scene's file of discs, which rank 0 finds. It is 0 if the file is missing
+/// or is a pipe, because ranks then cannot read parts of it. **Collective.**
 std::uint64_t bytes_of_file(const SceneParameters& scene, const Communicator& communicator) {
     std::uint64_t n_bytes = 0;
     if (communicator.is_root()) {
@@ -42,7 +42,7 @@ std::uint64_t bytes_of_file(const SceneParameters& scene, const Communicator& co
 }
 
 /// Moves `file` to the first line of the rank's part. A line belongs to the part in which it
-/// begins, so the rest of a line from the part before is skipped.
+/// begins, so the rest of a line from the previous part is skipped.
 DiscReader::Part go_to_part(std::istream& file, std::uint64_t n_bytes,
                             const Communicator& communicator) {
     const auto [begin, end] = slab_of_rank(communicator.rank(), n_bytes, communicator.size());
@@ -71,7 +71,7 @@ std::optional<std::vector<InputDisc>> read_on_all(const SceneParameters& scene,
     const Slab share = share_of(scene, communicator);
     std::vector<InputDisc> discs, chunk;
     discs.reserve(share.size());
-    // Numbers of ranks that may have more lines, and of ranks that have found an error
+    // Number of ranks that may have more lines, and number of ranks that have found an error
     std::uint64_t n_ranks[2] = {};
     do {
         const bool has_more = reader.read(chunk, discs_at_once, on_threads(n_threads));
@@ -85,9 +85,9 @@ std::optional<std::vector<InputDisc>> read_on_all(const SceneParameters& scene,
     return discs;
 }
 
-/// Reads the lines of `discs.from`. Each rank reads its share; rank 0's stream continues with all
-/// other lines. Returns nothing if a line has an error, or if some rank cannot read the file; rank
-/// 0's stream is then back at its first line. **Collective.**
+/// Reads the lines of `discs.from`. Each rank reads its share; rank 0's stream also contains the
+/// shares of all other ranks. Returns nothing if a line has an error, or if some rank cannot read
+/// the file; rank 0's stream is then back at its first line. **Collective.**
 std::optional<std::vector<InputDisc>> read_shares(const SceneParameters& scene, std::istream* lines,
                                                   const Communicator& communicator, int n_threads) {
     if (communicator.any(lines == nullptr)) return std::nullopt;

@@ -3,7 +3,7 @@
 //
 // All ranks read a file of discs together, each a part of its bytes. If a rank finds an error, rank
 // 0 reads the whole file again, because the message contains line numbers and ids, which are only
-// known after reading all lines before.
+// known after all previous lines have been read.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace carrom {
 /// Number of discs that a rank reads or makes before it sends them to other ranks.
 inline constexpr std::size_t discs_at_once = std::size_t{1} << 16;
 
-/// This rank's share of all ids: one range for each rank, about equally long, in their order.
+/// This rank's range of ids. The ranges of all ranks are about equally long and in order of rank.
 inline Slab share_of(const SceneParameters& scene, const Communicator& communicator) {
     return slab_of_rank(communicator.rank(), scene.n_discs, communicator.size());
 }

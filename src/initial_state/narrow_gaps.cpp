@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// A gap that is narrower than a diameter by less than this share of it counts as wide enough
+/// A gap counts as wide enough if it is narrower than a diameter by less than this share of it
 constexpr double rounding = 1e-9;
 
 /// All points within `radius` of a segment. A fixed disc has a segment of length 0.

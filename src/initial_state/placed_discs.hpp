@@ -29,14 +29,16 @@ public:
         if (refused_places_) map(first);
     }
 
-    /// Makes a bit map that rejects most proposals of discs of at least this radius with one read.
+    /// Makes a bit map that rejects most proposals, of discs of at least this radius, by one read
+    /// of memory.
     void map_refused(double smallest_radius) {
         refused_places_.emplace(box_.strip_low(), box_.strip_high(), box_.box().y, smallest_radius,
                                 box_.share());
         map(0);
     }
 
-    /// Deletes the map. Call this before smaller discs are placed, which fit where the map rejects.
+    /// Deletes the map. Call this before smaller discs are placed, which fit in places that it
+    /// rejects.
     void forget_map() { refused_places_.reset(); }
 
     /// Whether a proposal's disc would overlap a placed disc or a fixed body.
@@ -53,7 +55,8 @@ public:
         if (refused_places_) refused_places_->prefetch({notice.x, notice.y});
     }
 
-    /// Returns the discs of this rank's strip and deletes all others. Then no disc can be added.
+    /// Returns the discs of this rank's strip and deletes all others. No disc can be added
+    /// afterwards.
     std::vector<InputDisc> take_own() {
         refused_places_.reset();
         grid_.reset();
@@ -78,7 +81,7 @@ private:
     const InsertionBox& box_;
     int n_threads_;
     RawVector<Notice> discs_;
-    std::optional<PointGrid> grid_;               ///< grid of the placed discs, until `take_own`
+    std::optional<PointGrid> grid_;               ///< the placed discs; empty after `take_own`
     std::optional<RefusedPlaces> refused_places_; ///< made when most proposals are rejected
 };
 

@@ -33,8 +33,8 @@ public:
         columns_ = static_cast<std::uint64_t>(width * per_length_) + 1;
         rows_ = static_cast<std::uint64_t>(height * per_length_) + 1;
         heads_.assign(columns_ * rows_, none);
-        // Reserves all memory now, because a list that grows is in memory twice for a while.
-        // Reserved memory takes no space before it is used.
+        // Reserves all memory now, because a growing list is copied and so needs more than twice
+        // its size. Reserved memory takes no space before it is used.
         next_.reserve(static_cast<std::size_t>(1.1 * n_points) + 100);
     }
 
@@ -45,8 +45,8 @@ public:
         head = static_cast<std::uint32_t>(next_.size() - 1);
     }
 
-    /// Adds the points of `points` that follow those already added. The order in a cell's list
-    /// depends on the threads.
+    /// Adds those points of `points` that come after the points added before. The order in a cell's
+    /// list depends on the threads.
     template <class Points> void add_rest(const Points& points, int n_threads) {
         const std::size_t first = next_.size();
         next_.resize(points.size());
@@ -60,7 +60,7 @@ public:
         }
     }
 
-    /// Whether `is_hit(number)` is true for a point in the 9 cells around `place`.
+    /// Whether `is_hit(number)` is true for at least one point in the 9 cells around `place`.
     template <class IsHit> bool any_near(Point place, const IsHit& is_hit) const {
         const std::uint64_t c = column(place.x), r = row(place.y);
         const std::uint64_t last_column = std::min(c + 1, columns_ - 1),

@@ -23,7 +23,7 @@ namespace carrom {
 
 namespace {
 
-/// Insertion starts again after this many rounds in succession that place no disc
+/// Insertion starts again after this many successive rounds that place no disc
 constexpr std::uint64_t most_idle_rounds = 10000;
 constexpr std::uint64_t most_starts = 10;
 
@@ -39,7 +39,7 @@ public:
         if (!scene.groups.empty()) placed_.add(box_.gather(given));
     }
 
-    /// Returns the placed discs, or nothing if they have jammed. **Collective.**
+    /// Returns the placed discs, or nothing if insertion has jammed. **Collective.**
     std::optional<std::vector<InputDisc>> run() {
         std::vector<double> radii{scene_.radius};
         for (const Species& one : scene_.effects.species) radii.push_back(one.radius);
@@ -55,14 +55,15 @@ public:
     }
 
 private:
-    /// Whether discs of `radius` are placed together with those of radius `largest`. Few radii are
-    /// placed one by one; many are grouped, because each group needs at least one round.
+    /// Whether discs of `radius` are placed together with those of radius `largest`. If there are
+    /// few radii, each is placed separately; many are grouped, because each group needs at least
+    /// one round.
     static bool is_placed_with(double radius, double largest, std::size_t n_radii) {
         constexpr std::size_t few_radii = 8;
         return radius == largest || (n_radii > few_radii && radius > 0.9 * largest);
     }
 
-    /// Places the discs with radii in [smallest, largest]; false if these jam. **Collective.**
+    /// Places the discs with radii in [smallest, largest]; false if insertion jams. **Collective.**
     bool place_all_of(double smallest, double largest) {
         const auto [first, last] = slab_of_rank(communicator_.rank(), scene_.n_discs,
                                                 communicator_.size());
@@ -80,14 +81,14 @@ private:
     }
 
     struct Rounds {
-        /// Number of the next round, and rounds since the last placed disc
+        /// Number of the next round, and number of rounds since the last round that placed a disc
         std::uint64_t next = 0, n_idle = 0;
         std::uint64_t n_left = 0; ///< unplaced discs on all ranks
 
         bool are_over() const { return n_left == 0 || n_idle >= most_idle_rounds; }
     };
 
-    /// Runs single rounds while each places at least 25 % of the discs left. **Collective.**
+    /// Runs single rounds while each places at least 25 % of the unplaced discs. **Collective.**
     void judge_one_by_one(Rounds& rounds) {
         proposal_grid_.emplace(box_.grid(box_.share()));
         for (double share_placed = 1;
@@ -165,7 +166,7 @@ private:
                 if (placed_.overlaps(notice) || overlaps_earlier(notice))
                     refused[k].push_back(notice.id);
                 else
-                    notice.round = Notice::placed; // safe, because other threads do not read it
+                    notice.round = Notice::placed; // safe, because no other thread reads it
             }
         }
         proposal_grid_->clear(proposals_, n_threads_);
@@ -184,7 +185,7 @@ private:
         }
     }
 
-    /// Whether another proposal of the round overlaps this one and has a lower id.
+    /// Whether another proposal of the round, with a lower id, overlaps this one.
     bool overlaps_earlier(const Notice& notice) const {
         return box_.for_images(notice, [&](Point at) {
             return proposal_grid_->any_near(at, [&](std::uint32_t k) {
@@ -193,7 +194,7 @@ private:
         });
     }
 
-    /// Appends to `updates_` those placed discs that other ranks need, too.
+    /// Appends to `updates_` those placed discs that other ranks also need.
     void record_updates(std::span<const Notice> found) {
         for (const Notice& notice : found) {
             std::size_t n_concerned = 0;
@@ -207,11 +208,11 @@ private:
     int n_threads_;
     InsertionBox box_;
     PlacedDiscs placed_;
-    /// A grid of a round's proposals, while rounds run one after another
+    /// Grid of the proposals of a round; empty when rounds run in batches
     std::optional<PointGrid> proposal_grid_;
-    std::vector<std::uint32_t> unplaced_; ///< ids of this rank's discs without a place
+    std::vector<std::uint32_t> unplaced_; ///< ids of this rank's discs without a position
     RawVector<Notice> proposals_;
-    std::vector<Notice> updates_; ///< discs placed in the last round that other ranks need, too
+    std::vector<Notice> updates_; ///< discs placed in the previous round that other ranks also need
 };
 
 } // namespace

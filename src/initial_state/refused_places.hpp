@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two bit maps that spare random insertion most tests of pairs, by one read of memory each. When
-// little free space is left, nearly all proposals lie well inside a placed disc.
+// Two bit maps, each of which replaces most tests of pairs in random insertion by one read of
+// memory. When little free space is left, nearly all proposals lie well inside a placed disc.
 #pragma once
 
 #include <algorithm>
@@ -18,9 +18,9 @@ namespace carrom {
 /// Squares in which every position is too close to a placed disc.
 class RefusedPlaces {
 public:
-    /// Covers [x_low, x_high] x [0, height] for discs of at least this radius. Squares have an
-    /// eighth of the smallest diameter as width, or more if there would be over 256 squares for
-    /// each of `n_discs`; the map takes at most 32 bytes a disc.
+    /// Covers [x_low, x_high] x [0, height] for discs of at least this radius. Squares are an
+    /// eighth of the smallest diameter wide, or wider if there would be over 256 squares for each
+    /// of `n_discs`; so the map takes at most 32 bytes a disc.
     RefusedPlaces(double x_low, double x_high, double height, double smallest_radius,
                   double n_discs)
         : x_low_(x_low), smallest_radius_(smallest_radius) {
@@ -34,8 +34,8 @@ public:
         words_.assign(static_cast<std::size_t>(n_columns_) * words_per_column_, 0);
     }
 
-    /// Marks the squares that lie wholly in the circle around `place` in which no centre may lie.
-    /// Several threads may call this at the same time.
+    /// Marks the squares that lie wholly in the circle around `place` in which no other centre may
+    /// lie. Several threads may call this at the same time.
     void add(Point place, double radius) {
         const double reach = (radius + smallest_radius_) * per_length_ * (1 - margin);
         const double x = (place.x - x_low_) * per_length_, y = place.y * per_length_;
@@ -89,7 +89,7 @@ private:
         std::uint64_t* const words = words_.data() +
                                      static_cast<std::size_t>(column) * words_per_column_;
         for (std::int64_t row = first_row; row < end_row;) {
-            // The squares from `row` up to `end` have their bits in one word
+            // The bits of the squares from `row` up to `end` are in one word
             const std::int64_t end = std::min(end_row, (row / 64 + 1) * 64);
             const std::uint64_t bits = ~std::uint64_t{0} >> (64 - (end - row)) << (row % 64);
             std::atomic_ref word(words[row / 64]);
@@ -105,8 +105,8 @@ private:
     std::vector<std::uint64_t> words_;
 };
 
-/// The surroundings of a few points, in a hash table. `may_be_near` is true for all positions
-/// within `reach` of a point, and for few others.
+/// Cells near a few points, in a hash table. `may_be_near` returns true for all positions within
+/// `reach` of a point, and for few other positions.
 class NearFew {
 public:
     NearFew(std::size_t n_points, double reach) : per_length_(1 / (reach * (1 + 1e-9))) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rank 0 reads a scene's text, and the columns of a list of discs except positions and velocities,
-// and sends them to the other ranks. In a list each rank reads its own part of the discs
+// and sends them to the other ranks. The discs of a list are read by all ranks, each a part of them
 // (listed_discs.hpp).
 #pragma once
 
@@ -19,7 +19,7 @@ void broadcast(SceneText& text, const Communicator& ranks);
 
 /// Returns the columns of the scene's file of discs except positions and velocities. If the file
 /// cannot be read, they are incomplete, and the reader of its lines reports the reason. `following`
-/// is the stream of load_places; its position is kept. **Collective.**
+/// is the stream of load_places; its position is restored. **Collective.**
 DiscColumns load_columns(const SceneParameters& scene, std::istream* following,
                          const Communicator& ranks);
 

@@ -18,7 +18,8 @@ Velocity drawn_velocity(const SceneParameters& scene, DiscId id) {
     const double speed = scene.velocities == VelocityKind::maxwell
                              ? std::sqrt(random_exponential(random))
                              : std::numbers::sqrt3 * random.uniform();
-    // A box that is taller than wide has the same gas as the turned box, so velocities are turned.
+    // Exchanges x and y if the box is taller than wide, so that the box turned by 90 degrees has
+    // the same gas.
     const auto [vx, vy] = turned(longer_axis(scene.box), speed * direction.x, speed * direction.y);
     return {vx, vy};
 }
@@ -46,7 +47,7 @@ void add_streams(const SceneParameters& scene, std::vector<InputDisc>& discs) {
 
 namespace {
 
-/// Momentum and energy of discs. Masses are divided by the heaviest one, so that sums of any masses
+/// Momentum and energy of discs. Masses are divided by the largest mass, so that sums of any masses
 /// stay in the range of doubles.
 class Motion {
 public:
@@ -85,7 +86,7 @@ public:
                total_;
     }
 
-    /// The mass of all discs, relative to the heaviest one.
+    /// The total mass of all discs, divided by the largest mass.
     double total_mass() const { return total_; }
 
 private:
@@ -99,7 +100,7 @@ private:
         return ranks_.max(largest);
     }
 
-    /// Sums a term over all discs of all ranks; no term may exceed `largest` in size.
+    /// Sums a term over all discs of all ranks; no |term| may exceed `largest`.
     template <class Term>
     double sum_over(const std::vector<InputDisc>& discs, double largest, const Term& term) const {
         if (largest == 0) return 0;
@@ -165,7 +166,7 @@ void give_motion(const SceneParameters& scene, std::vector<InputDisc>& discs,
     }
 }
 
-/// Gives the discs of each group their group's temperature or speed. **Collective.**
+/// Calls give_motion for each group, with the group's temperature or speed. **Collective.**
 void give_motion_by_group(const SceneParameters& scene, std::vector<InputDisc>& discs,
                           const Communicator& communicator, int n_threads) {
     std::ranges::sort(discs, {}, &InputDisc::id);

@@ -66,7 +66,8 @@ void check_chunk_of(hid_t creation, const std::string& name, std::size_t bytes_p
     if (bytes > largest_chunk) throw FileError(name + " has larger chunks than 256 MiB");
 }
 
-/// Limits for links and nested groups. Carrom's files have dozens of links, or one per column.
+/// Largest number of links, and deepest nesting of groups. Carrom's files have some dozens of
+/// links, or one for each column.
 constexpr std::size_t most_objects = 100000, deepest_group = 16;
 
 /// Returns the result of a call. Throws FileError "is damaged" if the call has failed.
@@ -162,7 +163,7 @@ void refuse_other_files(hid_t file, const std::string& path) {
 
 void check_storage(const Dataset& dataset, const std::string& name) {
     const Properties creation(checked(H5Dget_create_plist(dataset.id()), name));
-    // parts of a virtual data set have been checked
+    // the parts of a virtual data set have already been checked
     if (H5Pget_layout(creation.id()) == H5D_VIRTUAL) return;
     const Space whole(checked(H5Dget_space(dataset.id()), name));
     const auto bytes = static_cast<double>(H5Sget_simple_extent_npoints(whole.id())) *

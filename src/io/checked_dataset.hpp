@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares the structure of a file's data set with the structure that this program writes, before
-// any of its numbers is read. A child process has tested beforehand that HDF5 does not crash on the
+// any of its numbers are read. A child process has already tested that HDF5 does not crash on the
 // file (child_process.hpp).
 #pragma once
 
@@ -25,8 +25,8 @@ Dataset open_checked(hid_t parent, const std::string& name,
 std::string name_of_link(hid_t group, hsize_t number);
 
 /// Throws FileError unless all numbers of a file lie in it, or in plain files below its folder that
-/// name no further files. Otherwise HDF5 would open any file that is named there, wait for a pipe,
-/// or return the bytes of any file as numbers.
+/// refer to no further files. Without this check HDF5 would open any file that is named there, wait
+/// for a pipe, or return the bytes of any file as numbers.
 void refuse_other_files(hid_t file, const std::string& path);
 
 /// The number of entries of an ascending column that are <= `last`.

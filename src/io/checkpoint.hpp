@@ -2,16 +2,17 @@
 // A run's state at the end of a step, in one HDF5 file from which any number of ranks can continue
 // with the same bits.
 //
-// Discs are in the order of their ids, so the file does not depend on the number of ranks that
-// wrote it. /carrom/discs has the exact stored state, column by column, and /carrom/run the
-// description of the run. /particles/discs has the same discs in the form that other programs read
-// (H5MD; positions at the time of the step, in single precision). /carrom/checksums has checksums
-// of all bytes (checksums.hpp).
+// Discs are in order of id, so the file does not depend on the number of ranks that wrote it.
+// /carrom/discs has the exact stored state, column by column, and /carrom/run the description of
+// the run. /particles/discs has the same discs in the form that other programs read (H5MD;
+// positions at the time of the step, in single precision). /carrom/checksums has checksums of all
+// bytes (checksums.hpp).
 //
-// Rank 0 makes the file and reserves its space on disk. Then ranks write discs by ranges of ids, at
-// places that HDF5 reports, or together through MPI-IO. Every rank reads its range through MPI-IO.
-// Cost for each disc: 80 bytes on disk; 8 bytes of memory, 80 more for collective transfers; it is
-// sent once if another rank writes it. A side column adds 8 bytes on disk, 24 of memory.
+// Rank 0 makes the file and reserves its space on disk. Then each rank writes ranges of ids, either
+// on its own at offsets that HDF5 reports, or together with all others through MPI-IO. Every rank
+// reads its range through MPI-IO. Cost for each disc: 80 bytes on disk; 8 bytes of memory, 80 more
+// for collective transfers; it is sent once if another rank writes it. A side column adds 8 bytes
+// on disk, 24 of memory.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +54,7 @@ struct CheckpointHeader {
                   /// Sums of the discs' counters; a collision of a pair counts once
         pair_collisions = 0;
     std::string state_hash;
-    Frame frame; ///< the frame of the discs' coordinates; in the file only if it moves
+    Frame frame; ///< frame of reference of the coordinates; in the file only if it moves
     std::vector<Species> species; ///< stored only if species come from a file of discs: the
                                   ///< scene's text does not contain them
     SideColumnSet columns;        ///< columns in addition to the states; part of the state hash
@@ -62,8 +63,8 @@ struct CheckpointHeader {
     Box box() const { return {box_size, box_height}; }
     void set_box(const Box& box) { box_size = box.x, box_height = box.y; }
 
-    /// The clock on which the discs' own times are measured: micro-steps since the last sync, or
-    /// the clock of a moving frame.
+    /// The time on the clock of the discs' own times: micro-steps since the last sync, or the clock
+    /// of a moving frame.
     double clock() const {
         return frame.is_moving ? frame.clock : static_cast<double>(micro_steps_done % sync_every);
     }
@@ -79,10 +80,11 @@ struct WriteSettings {
     bool is_collective = false; ///< whether MPI-IO chooses ranks that write for all (aggregators)
 };
 
-/// Writes `discs`, in any distribution over ranks, as a whole file or not at all: under another
-/// name, then synced to disk and renamed. `columns` are in the order of `discs`, if the header has
-/// any. Computes the header's counters and hash itself. If any rank fails, every rank throws
-/// CollectiveError, exit code 4, and an older file of that name is unchanged. **Collective.**
+/// Writes `discs`, in any distribution over ranks, completely or not at all: the file is written
+/// under another name, synced to disk and renamed. `columns`, if the header has any, are in the
+/// order of `discs`. Computes the header's counters and hash itself. If any rank fails, every rank
+/// throws CollectiveError, exit code 4, and an older file of that name is unchanged.
+/// **Collective.**
 void write_checkpoint(const std::string& path, CheckpointHeader header,
                       std::span<const DiscState> discs, const Communicator& communicator,
                       const WriteSettings& settings = {}, const StoredSamples& samples = {},
@@ -95,13 +97,13 @@ struct Checkpoint {
     StoredSamples samples;
 };
 
-/// Reads a checkpoint. If the file is damaged, of version 0.1, or no checkpoint, every rank throws
-/// CollectiveError (exit code 2) with the reason after the path. **Collective.**
+/// Reads a checkpoint. If the file is damaged, of version 0.1, or not a checkpoint, every rank
+/// throws CollectiveError (exit code 2); its text is the path, then the reason. **Collective.**
 Checkpoint read_checkpoint(const std::string& path, const Communicator& communicator);
 
-/// Reads all bytes of a checkpoint and checks them by its checksums; returns its
-/// header. Throws like `read_checkpoint` if it is damaged or cannot be read. Returns
-/// nothing for other files of Carrom, which are not checked. **Collective.**
+/// Reads all bytes of a checkpoint and compares them with its checksums; returns its header. Throws
+/// like `read_checkpoint` if it is damaged or cannot be read. Returns nothing for other files of
+/// Carrom, which are not checked. **Collective.**
 std::optional<CheckpointHeader> check_damage(const std::string& path,
                                              const Communicator& communicator);
 

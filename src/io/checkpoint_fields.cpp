@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char *box_height_name = "box_height", *scene_path = "/carrom/scene";
 
-/// Visits the values of a frame that moves.
+/// Calls `visit(name, value)` for each value of a moving frame, except its periods.
 template <class SomeFrame, class Visit> void visit_frame(SomeFrame& frame, const Visit& visit) {
     visit("frame_x", frame.x);
     visit("frame_y", frame.y);
@@ -28,13 +28,14 @@ template <class SomeFrame, class Visit> void visit_periods(SomeFrame& frame, con
     visit("period_y", frame.periods.y);
 }
 
-/// Visits the offset and the speed of the periodic images above the box, for sheared sides.
+/// Calls `visit(name, value)` for the offset and the speed of the periodic images above the box,
+/// for sheared sides.
 template <class SomeFrame, class Visit> void visit_images(SomeFrame& frame, const Visit& visit) {
     visit("image_offset", frame.periods.offset);
     visit("image_speed", frame.periods.speed);
 }
 
-/// Visits the part of a header that a recording stores.
+/// Calls `visit(name, value)` for each value of a header that a recording stores.
 template <class Header, class Visit> void visit_recorded(Header& header, const Visit& visit) {
     visit_header(header, [&](std::string_view name, auto& value) {
         if (name.starts_with("scene_") || name == "n_discs") visit(name.data(), value);

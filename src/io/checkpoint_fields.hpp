@@ -50,7 +50,7 @@ template <class Header, class Visit> void visit_header(Header& header, const Vis
     visit("state_hash", header.state_hash);
 }
 
-/// A number of each disc that measurements or trajectories need after a restart.
+/// A column with one number for each disc, which measurements or trajectories need after a restart.
 struct SampleColumn {
     const char* path;
     double FirstPlace::* field;
@@ -79,8 +79,8 @@ hid_t type_of(const StateColumn& column);
 void write_header(hid_t group, const CheckpointHeader& header);
 /// Reads a header without species. Throws FileError if a value is missing or of the wrong type.
 CheckpointHeader read_header(hid_t file);
-/// Write and read species as one column each for counts, radii and masses, or nothing if there are
-/// none. Both throw FileError.
+/// Write and read species as three columns, for counts, radii and masses. They write and return
+/// nothing if there are no species. Both throw FileError.
 void write_species(hid_t file, const std::string& path, const std::vector<Species>& species);
 std::vector<Species> read_species(hid_t file, const std::string& path, std::uint64_t n_discs);
 

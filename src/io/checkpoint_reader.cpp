@@ -34,8 +34,8 @@ constexpr const char* stop_path = "/carrom/stop";
 constexpr const char* effects_path = "/carrom/effects";
 constexpr const char* sums_path = "/carrom/measurements/sums";
 
-/// Throws if this program never writes such a header. If its checksums are right, another program
-/// has made the file.
+/// Throws if this program never writes such a header. A file with such a header and right checksums
+/// has been made by another program.
 void check_header(const CheckpointHeader& header) {
     const Frame& frame = header.frame;
     const std::array finite = {frame.x,
@@ -151,7 +151,7 @@ Contents inspected_contents(const std::string& path) {
     }
 }
 
-/// **Collective.**
+/// Replaces `contents` on every rank by rank 0's contents. **Collective.**
 void broadcast(Contents& contents, const Communicator& communicator) {
     CheckpointHeader& header = contents.header;
     visit_header(header, [&](const char*, auto& value) { communicator.broadcast(value); });
@@ -200,7 +200,8 @@ public:
         check_numbers();
     }
 
-    /// Reads rows of 8 bytes of a data set, from row `begin` on. Not collective; throws FileError.
+    /// Reads rows of a data set, 8 bytes each, from row `begin` on. Not collective; throws
+    /// FileError.
     template <class Number>
     void read(const std::string& path, std::span<Number> numbers, std::uint64_t begin,
               hid_t type) const {

@@ -122,7 +122,8 @@ std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const Store
             return vector_of(shown.vx * k, shown.vy * k);
         });
     if (!header.shown.species.empty()) {
-        // Searches the list of species, because a table for all discs would take memory.
+        // Searches the list of species for each disc, because a table for all discs would take
+        // memory.
         const auto number_of = [ends = ends_of(header.shown.species)](const DiscState& disc) {
             return std::upper_bound(ends.begin(), ends.end(), disc.id) - ends.begin();
         };
@@ -173,8 +174,8 @@ void complete(const std::string& path, const StateSums& sums) {
     file.close("cannot be written");
     for (std::size_t k = 0; k < all.data.size(); ++k)
         all.data[k].checksum = sums[first_checksum + k];
-    // The file is closed while this sum is computed, because HDF5 marks a file that is open for
-    // writing
+    // The file is closed while this sum is computed, because HDF5 sets a mark in a file that is
+    // open for writing, which would change the sum.
     all.others = checksum_of_others(path, all.left_out());
     file = h5::open_file(path, h5::Access::write);
     h5::overwrite(file.id(), checksums_path, all.text());

@@ -22,11 +22,11 @@ struct DiscTarget {
     std::string path;
     hid_t type; ///< type of the numbers
     std::uint64_t bytes_per_row = 0;
-    std::string unit; ///< unit, for other programs; empty if they do not read this data set
+    std::string unit; ///< unit, for other programs; empty if only Carrom reads this data set
     std::function<void(std::span<const DiscState>, std::byte*)> put;
 };
 
-/// Side columns (core/side_columns.hpp) of the discs in this rank's pieces, in the order of ids.
+/// Side columns (core/side_columns.hpp) of the discs in this rank's pieces, in order of id.
 struct SideOfPieces {
     DiscId first = 0;
     SideColumns columns;
@@ -36,14 +36,14 @@ struct SideOfPieces {
     }
 };
 
-/// The data sets of discs in a checkpoint. `samples` and `columns` must outlive the
-/// result.
+/// The data sets of discs in a checkpoint. `samples` and `columns` must outlive the result.
 std::vector<DiscTarget> disc_targets(const CheckpointHeader& header, const StoredSamples& samples,
                                      const SideOfPieces& columns);
 
-/// Sums over a state that are complete only after all discs. Each is a pair of words; threads and
-/// ranks may add them in any order. The first sum counts collisions of discs with walls (`low`) and
-/// with discs (`high`; a pair counts twice). Then come the state's hash and the checksums.
+/// Sums that are complete only after all discs have been added. Each is a pair of words; threads
+/// and ranks may add to them in any order. The first sum counts collisions of discs with walls
+/// (`low`) and with discs (`high`; a collision of a pair counts twice). Then come the state's hash
+/// and the checksums.
 using StateSums = std::vector<StateHash>;
 inline constexpr std::size_t place_of_collisions = 0, place_of_hash = 1, first_checksum = 2;
 

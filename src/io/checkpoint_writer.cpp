@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ranks share the writing of discs (checkpoint.hpp). The places of data sets in the file are
+// Ranks share the writing of discs (checkpoint.hpp). The offsets of data sets in the file are
 // fixed, so writing never changes HDF5's metadata. Each rank's pieces begin at a page boundary,
 // because caches of different nodes are not coherent.
 //
 // For independent transfers only rank 0 opens the file by HDF5, to make and to complete it. HDF5
-// reports where the data are in the file, and ranks write them there. So only one rank writes
+// reports the offsets of the data in the file, and ranks write them there. So only one rank writes
 // HDF5's mark of an open file, and no call waits for another rank: each rank detects its own
 // failure, and then all agree. With one handle for all ranks, HDF5 1.10 waits for ever if rank 0
-// cannot write that mark when all close the file. If there are many ranks, some of them
-// (most_writers) write for all, and each rank sends discs to each writer.
+// cannot write that mark when all close the file. If there are many ranks, only some of them
+// (most_writers) write, and each rank sends discs to each writer.
 //
 // Collective transfers need one handle for all ranks. If one rank fails, the others wait inside
 // HDF5; then `agree`, or a deadline for closing, ends the run with the same exit code.
@@ -40,7 +40,7 @@ constexpr std::uint64_t bytes_of_structure = 1 << 20;
 constexpr int most_writers = 64;
 static_assert(Pieces::least_rows % rows_per_block == 0, "pieces are made of whole blocks");
 
-/// Ends all ranks if HDF5 does not return from closing a file that ranks share.
+/// Ends all ranks if HDF5 does not finish closing a shared file within 30 seconds.
 class Deadline {
 public:
     Deadline() {
@@ -156,7 +156,7 @@ private:
     const Communicator& communicator_;
     std::vector<std::uint64_t> places_; ///< for each target, where its bytes begin in the file
     std::optional<Descriptor> bytes_;
-    h5::SharedFile file_; ///< the file of collective transfers, with its data sets
+    h5::SharedFile file_; ///< the file that collective transfers use, with its data sets
     std::vector<h5::Dataset> datasets_;
     std::string failure_;
     std::uint64_t n_batches_ = 0;
@@ -173,8 +173,8 @@ void add(std::span<const DiscState> discs, const SideOfPieces& side, StateSums& 
 }
 
 /// Converts a piece's discs to the targets' bytes, appends these to the batch, and adds to `sums`.
-/// New threads share this. The calling thread first calls `first_of_all`, which writes another
-/// batch, and then takes part.
+/// New threads share this work. The calling thread first calls `first_of_all`, which writes the
+/// previous batch, and then takes part.
 template <class Act>
 void pack(std::span<const DiscState> piece, std::uint64_t first, const SideOfPieces& side,
           const std::vector<DiscTarget>& targets, Batch& batch, StateSums& sums, int n_threads,
@@ -207,7 +207,7 @@ void pack(std::span<const DiscState> piece, std::uint64_t first, const SideOfPie
         const std::lock_guard lock(adding);
         for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += mine[k];
     };
-    std::vector<std::jthread> threads; // joined at the end
+    std::vector<std::jthread> threads; // their destructors wait for them
     try {
         for (int k = 0; k < n_threads; ++k) threads.emplace_back(pack_blocks);
         // no further thread can start, so the running threads do all the work
@@ -244,7 +244,7 @@ SideOfPieces in_pieces(std::span<const DiscState> discs, const SideColumnSet& wa
 }
 
 /// Writes the ranks' pieces to the data sets. Each piece is written while the next one is packed.
-/// Collective transfers instead come at the end, one for each data set. **Collective.**
+/// Collective transfers start after all pieces are packed, one for each data set. **Collective.**
 StateSums write_discs(const std::string& path, const std::vector<DiscTarget>& targets,
                       std::span<const DiscState> discs, const SideOfPieces& side,
                       std::uint64_t n_discs, const WriteSettings& settings, int n_writers,

@@ -144,7 +144,7 @@ bool has_traces_of_checkpoint(const std::string& path) {
         for (const std::string& trace : traces)
             if (found.find(trace) != std::string_view::npos) return true;
         if (n < text.size()) return false;
-        place += n - longest; // reads the end again: a trace may begin there
+        place += n - longest; // reads the last bytes again: a trace may begin there
     }
 }
 

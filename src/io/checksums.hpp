@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checksums of a checkpoint, which detect every flipped byte.
 //
-// The file contains a text with them, /carrom/checksums, whose lines are like those of sha256sum:
-// one for each data set of discs, one for "all other bytes", and one for "the lines above".
+// They are listed in a text in the file, /carrom/checksums, whose lines are like those of
+// sha256sum: one for each data set of discs, one for "all other bytes", and one for "the lines
+// above".
 //
 // A data set's checksum is a sum over blocks of 1024 rows, modulo 2^64 in each half. Each term is
 // the XXH3-128 of a block, with the block's number as seed. A sum does not depend on the order, so
-// threads and ranks hash their shares at the same time. The second last line is the XXH3-128 of the
-// file without these data sets and this text. HDF5 reports where they are in the file.
+// threads and ranks can hash their shares at the same time. The line before the last is the
+// XXH3-128 of the file without these data sets and this text, whose offsets in the file HDF5
+// reports.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +34,7 @@ inline constexpr std::uint64_t rows_per_block = 1 << 10;
 /// The contribution of one block to its data set's checksum.
 StateHash checksum_of_block(std::span<const std::byte> bytes, std::uint64_t block);
 
-/// Adds up each sum over all ranks. **Collective.**
+/// Replaces each of `sums` by its sum over all ranks. **Collective.**
 void sum_over(const Communicator& communicator, std::span<StateHash> sums);
 
 /// The bytes [begin, end) of a file.
@@ -79,17 +81,17 @@ struct Checksums {
 /// on one rank; throws FileError if the text was not written by Carrom.
 Checksums read_checksums(hid_t file);
 
-/// Whether the file's bytes contain the text of checksums or a name in /carrom/run, even where HDF5
-/// no longer finds them. Only checkpoints contain them. Both are searched, because they lie in
-/// different pages and one damaged link can hide both from HDF5. Reads the whole file. Called on
+/// Whether the file's bytes contain the text of checksums or a name in /carrom/run, even if HDF5 no
+/// longer finds them, because one damaged link can hide both. Only checkpoints contain them. Both
+/// are searched, because they lie in different pages of the file. Reads the whole file. Called on
 /// one rank; throws FileError.
 bool has_traces_of_checkpoint(const std::string& path);
 
 /// The checksum of a file without `left_out`. Called on one rank; throws FileError.
 StateHash checksum_of_others(const std::string& path, std::vector<ByteRange> left_out);
 
-/// The part of a data set's checksum that comes from this rank's rows. The rows are read through
-/// HDF5, with the driver that opened the file. Not collective; throws FileError.
+/// This rank's contribution to a data set's checksum. It reads its rows through HDF5, with the
+/// driver that opened the file. Not collective; throws FileError.
 StateHash share_of_checksum(hid_t dataset, const DiscData& data, const Communicator& communicator);
 
 } // namespace carrom

@@ -20,7 +20,7 @@ namespace carrom {
 namespace {
 
 constexpr rlim_t most_seconds = 10, most_memory = rlim_t{4} << 30;
-/// Limit of wall time, for a child process that waits without using a processor
+/// Limit of wall time, for a child process that waits without using processor time
 constexpr unsigned patience_seconds = 50;
 constexpr time_t least_of_loop = 3;        ///< seconds of processor time; undamaged files take less
 constexpr std::size_t longest_text = 4000; ///< bytes; a pipe accepts them in one write
@@ -33,7 +33,8 @@ void set_limit(decltype(RLIMIT_AS) kind, rlim_t most) {
     ::setrlimit(kind, &limit);
 }
 
-/// Sets limits, no core file, and default handlers, because the program's would act for all ranks.
+/// Sets limits, forbids core files, and restores default handlers, because the program's own
+/// handlers would end all ranks.
 void take_limits() {
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGXCPU})
         ::signal(number, SIG_DFL);
@@ -52,7 +53,7 @@ void take_limits() {
     ::_exit(::write(answers, text.data(), text.size()) > 0 ? code : 2);
 }
 
-/// Writes the problem, if there is one, to `answers`.
+/// Inspects, and writes the problem, if there is one, to the pipe `answers`.
 [[noreturn]] void inspect_and_exit(const std::function<void()>& inspect, int answers) {
     take_limits();
     try {

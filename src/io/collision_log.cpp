@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t rows_at_once = 1 << 18;
 
-/// The columns of a LoggedCollision, in the order of its words.
+/// The columns of the file, in the order of the members of LoggedCollision.
 constexpr std::array column_names = {"step", "time", "p", "q", "impulse"};
 using Words = std::array<std::uint64_t, column_names.size()>;
 constexpr std::size_t time_column = 1, impulse_column = 4; // the columns of real numbers
@@ -42,7 +42,8 @@ void write_structure(hid_t file, const RecordedSystem& system, const LoggedSteps
     if (!steps.gaps.empty()) h5::write_column(file, h5md::gaps_path, steps.gaps);
 }
 
-/// Reads which steps a log has. Logs of version 0.2 lack their last step and count as complete.
+/// Reads which steps, up to `step`, a log has. Logs of version 0.2 lack their last step and count
+/// as complete.
 LoggedSteps steps_at(hid_t file, std::int64_t step) {
     LoggedSteps steps{step, {}};
     if (h5::has(file, last_step_path)) h5::read_scalar(file, last_step_path, steps.last);
@@ -87,7 +88,7 @@ void CollisionLog::begin() {
 }
 
 bool CollisionLog::go_on(std::int64_t step) {
-    steps_ = {step, {}}; // valid if there is no file
+    steps_ = {step, {}}; // for the case that there is no file
     if (step > 0) steps_.gaps = {1, step};
     return file_->go_on(std::string(h5md::collisions_path) + column_names[0], step,
                         [&](hid_t file) {

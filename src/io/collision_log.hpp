@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every collision of a run in one HDF5 file, in the total order over all ranks.
+// Every collision of a run in one HDF5 file. The collisions of all ranks are sorted by time, with a
+// fixed order for equal times.
 //
 // Columns of /carrom/collisions: step (in which the collision happens, from 1), time (in steps,
 // since step 0), p, q (-1: a wall), impulse. Box, radii and masses are in /particles/discs. All
@@ -39,8 +40,8 @@ public:
                  const Communicator& communicator);
     ~CollisionLog();
 
-    /// As in Trajectory. `go_on` returns, on every rank, whether there was a file. Steps up to
-    /// `step` that the file lacks become a gap, which the file lists. **Collective.**
+    /// These two work as in Trajectory. `go_on` returns, on every rank, whether there was a file.
+    /// Steps up to `step` that the file lacks become a gap, which the file lists. **Collective.**
     void begin();
     bool go_on(std::int64_t step);
     /// The last step in the file before `go_on` has removed later steps, on rank 0; -1 if unknown.

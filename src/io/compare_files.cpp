@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::uint64_t rows_at_a_time = std::uint64_t{1} << 16;
 
-/// Collects differences of numbers, and keeps a text about the first one.
+/// Finds the first and the largest difference of numbers, and describes both in words.
 class Differences {
 public:
-    /// `where()` returns the text of the place; it is called only if the numbers differ.
+    /// `where()` returns a description of the place; it is called only if the numbers differ.
     template <class Where>
     void compare(double a, double b, const std::string& what, const Where& where) {
         // Equal, or both not a number. Zeros of either sign are equal, as in the state hash.
@@ -39,7 +39,8 @@ public:
     FileDifference result;
 };
 
-/// A column's name in messages. Positions are compared as stored, because a shift may lose bits.
+/// A column's name in messages. Positions are compared as stored, relative to the box's corner,
+/// because subtracting the origin may lose bits.
 std::string column_text(const FileSummary& summary, const std::string& column) {
     if (column == "x" && summary.origin[0] != 0) return "x from the left side";
     if (column == "y" && summary.origin[1] != 0) return "y from the bottom";

@@ -40,7 +40,7 @@ bool is_text_beside(std::string_view name) {
            numbers.find_first_not_of("0123456789-") == std::string_view::npos;
 }
 
-/// Whether this process can open a file with `n_parts` parts; if not, `errno` has the reason.
+/// Whether this process can still open a file with `n_parts` parts; if not, `errno` has the reason.
 bool has_free_files(std::size_t n_parts = 0) {
     constexpr std::size_t n_for_one = 8;
     std::vector<int> files;
@@ -79,7 +79,7 @@ std::string described(const FileError& error, const std::string& path, ExitCode&
     return path + ": " + with_remedy(error);
 }
 
-// Opens without waiting for the other end of a pipe; pipes are rejected afterwards.
+// Does not wait for the other end of a pipe when it opens one; pipes are rejected afterwards.
 Descriptor::Descriptor(const std::string& path, int flags) {
     if (path.find('\0') != std::string::npos) throw FileError("is no file's name");
     number_ = ::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0666);
@@ -174,7 +174,7 @@ void refuse_special(const std::string& path) {
 
 namespace {
 
-/// Paths of the present HeldFolders by their file descriptors; each path ends in a slash.
+/// Paths of all HeldFolders that exist, by their file descriptors; each path ends in a slash.
 std::map<int, std::string>& held_folders() {
     static std::map<int, std::string> all;
     return all;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calls of the file system: descriptors, free space, durability, names. Each function throws
+// Calls to the file system: descriptors, free space, durability, names. Each function throws
 // FileError if its call fails.
 //
 // Each rank calls these functions on its own. `on_all` and `on_root` turn exceptions of one rank
@@ -33,8 +33,8 @@ public:
     using FileError::FileError;
 };
 
-/// Throws FileError with `what` and errno's text, or MachineError if the reason is that descriptors
-/// or memory are used up.
+/// Throws FileError with `what` and errno's text, or MachineError if descriptors or memory have run
+/// out.
 [[noreturn]] void fail_with_errno(const std::string& what);
 
 /// A file descriptor that closes itself.
@@ -73,7 +73,7 @@ void check_room(const std::string& folder, std::uint64_t bytes);
 /// if the file system cannot do this.
 void reserve(const std::string& path);
 /// Throws if a rename to `path` would replace a device, a pipe or a folder (not a plain file or a
-/// link), if the path is empty, or if it contains a NUL, at which the system would cut it.
+/// link), if the path is empty, or if it contains a NUL, where the system would cut it off.
 void refuse_special(const std::string& path);
 /// Holds open the folder to which `path` leads at construction. While this object exists,
 /// `rename_durably` renames files below `path` in that folder only, even if something else has
@@ -92,7 +92,7 @@ private:
 /// Renames a file, and syncs the folder so that the new name is on disk. Throws if this fails, or
 /// if a HeldFolder exists for the folder and its path now leads to another folder.
 void rename_durably(const std::string& from, const std::string& to);
-/// The end of names of unfinished files.
+/// The names of unfinished files end with this.
 inline constexpr std::string_view unfinished_suffix = ".partial";
 
 /// A file that will be renamed when it is complete. If it was not renamed and `is_mine`, the
@@ -110,11 +110,11 @@ private:
     bool is_mine_;
 };
 
-/// Returns a name that cannot be predicted. If a program is killed, `remove_unfinished` removes its
-/// files with such names.
+/// Returns a random name, which cannot be predicted. If a program is killed, `remove_unfinished`
+/// removes its files with such names.
 std::string name_beside();
-/// Replaces a file by a new one, as a whole or not at all. `write` makes the new file under a name
-/// that cannot be predicted, and syncs it to disk.
+/// Replaces a file by a new one, completely or not at all. `write` makes the new file under a
+/// random name and syncs it to disk.
 void replace_file(const std::string& path,
                   const std::function<void(const std::string& beside)>& write);
 void replace_file(const std::string& path, const std::string& text);

@@ -71,7 +71,7 @@ std::vector<double> read_block(hid_t file, const std::string& path, const h5::Ro
     return numbers;
 }
 
-/// Throws FileError if a frame has invalid edges.
+/// Returns the boxes of all frames. Throws FileError if an edge is not a finite number above 0.
 std::vector<Box> boxes_of_frames(hid_t file, std::size_t n_frames) {
     const h5::Dataset dataset = h5::open_checked(file, h5md::edges_path, h5::Shape{n_frames, 3});
     h5::check_storage(dataset, h5md::edges_path);
@@ -87,7 +87,7 @@ std::vector<Box> boxes_of_frames(hid_t file, std::size_t n_frames) {
     return boxes;
 }
 
-/// Returns the words of an attribute, all of the same length, one after the other.
+/// Returns the words of an attribute, all of the same length, as one text.
 std::string letters_of(hid_t file, const char* object, const char* name, hssize_t n_words) {
     const h5::Attribute attribute(
         h5::checked(H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT), name));
@@ -249,7 +249,7 @@ void FrameFile::open_trajectory() {
     summary_.box = summary_.boxes.back();
 }
 
-/// Reads the first row of each segment or of a checkpoint, so that the child process finds damage.
+/// Reads the first row of a checkpoint, or of each segment, so that the child process finds damage.
 void FrameFile::try_all_parts() const {
     Rows rows;
     std::uint64_t first = 0;

@@ -35,10 +35,10 @@ struct FileSummary : RecordedSystem {
     bool has(std::string_view column) const { return place_of(column) < columns.size(); }
 };
 
-/// Numbers by column, then by row.
+/// Numbers, indexed by column, then by row.
 using Rows = std::vector<std::vector<double>>;
 
-/// All functions throw an InputError that names the file. Not collective.
+/// All functions of this class throw an InputError that names the file. Not collective.
 class FrameFile {
 public:
     /// Call `check_damage` first for checkpoints, because HDF5 ignores some damage. A child process
@@ -49,7 +49,7 @@ public:
 
     const FileSummary& summary() const { return summary_; }
 
-    /// The paths of the segments that a recording joins.
+    /// The paths of the segments of a recording.
     std::vector<std::string> segments() const;
 
     /// Checks every byte of a recording. The constructor checks all bytes except the numbers.
@@ -61,8 +61,8 @@ public:
     /// Like `read`, but with positions relative to the scene's origin.
     void read_shown(std::size_t frame, std::uint64_t begin, std::uint64_t end, Rows& rows) const;
 
-    /// The rows, ascending, of a frame's discs that have left the box through an open side. The
-    /// frame must have velocities. It is read only if the box has an open side.
+    /// Returns the row numbers, ascending, of a frame's discs that have left the box through an
+    /// open side. The frame must have velocities. It is read only if the box has an open side.
     std::vector<std::uint64_t> find_departed(std::size_t frame) const;
 
 private:

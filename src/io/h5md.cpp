@@ -42,8 +42,8 @@ void create_box(hid_t parent, const RecordedSystem& system) {
                                                  boundary(system.is_periodic_y), "none"});
 }
 
-/// Writes values by disc, without step and time (H5MD 1.1, "time-independent data"). Equal values
-/// of one species follow each other, so deflate makes them small.
+/// Writes one value for each disc, without step and time (H5MD 1.1, "time-independent data"). Equal
+/// values of one species follow each other, so deflate makes them small.
 template <class Number>
 void write_fixed(hid_t discs, const char* name, hid_t type, std::uint64_t n, Number common,
                  const std::vector<Number>& values, const std::string& unit = "") {

@@ -25,8 +25,8 @@ inline constexpr const char* shown_species_path = "/parameters/species";
 /// Writes /h5md, /parameters, and /particles/discs with the box; the caller adds the box's `edges`.
 void write_system(hid_t file, const RecordedSystem& system);
 
-/// Writes radius, mass and species of each disc. If discs are equal, these are fill values, which
-/// take no space.
+/// Writes radius, mass and species of each disc. If all discs are equal, the values are fill
+/// values, which take no space.
 void write_bodies(hid_t file, const RecordedSystem& system);
 
 std::array<double, 3> edges_of(const Box& box);

@@ -40,7 +40,7 @@ namespace {
 
 // Longer than any scene, which has at most 2^26 characters
 constexpr std::size_t longest_text = std::size_t{1} << 28;
-constexpr unsigned most_links = 64; // a group's header contains up to so many links
+constexpr unsigned most_links = 64; // a group's header contains at most this many links
 
 /// Collects the two innermost entries of HDF5's error stack, because these contain the error
 /// message of the operating system.
@@ -58,8 +58,8 @@ void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 /// Time stamps are left out, so that equal contents give equal bytes.
 void leave_out_times(const Properties& creation) { set(creation, H5Pset_obj_track_times, false); }
 
-/// Groups that keep the order of their members have the newer format, whose metadata HDF5 protects
-/// by checksums.
+/// Groups that keep the order of their members have HDF5's newer format, whose metadata HDF5
+/// protects by checksums.
 void as_checked_group(const Properties& creation) {
     leave_out_times(creation);
     set(creation, H5Pset_link_creation_order, unsigned{H5P_CRT_ORDER_TRACKED});
@@ -211,8 +211,8 @@ SharedFile::SharedFile(const std::string& path, Access access, const Communicato
 
 bool has(hid_t file, const std::string& path) {
     for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-        // An error does not mean that the object is missing: HDF5 finds links of some damaged
-        // groups in a second call.
+        // An error must not count as a missing object: in some damaged groups, HDF5 finds a link
+        // only when it is called a second time.
         const std::string part = path.substr(0, end);
         if (checked(H5Lexists(file, part.c_str(), H5P_DEFAULT), part) == 0) return false;
         if (end == std::string::npos) return true;

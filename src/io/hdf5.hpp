@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// HDF5's C interface with errors that throw and handles that close themselves. Only this module
-// uses it.
+// HDF5's C interface, with exceptions for errors and handles that close themselves. Only this
+// module uses it.
 //
-// A throw on one rank alone would leave the others waiting. So the body of an `on_all` (files.hpp)
+// If only one rank threw, the others would wait for it. So the body of an `on_all` (files.hpp)
 // contains at most one collective call, and `on_all` throws on every rank.
 #pragma once
 
@@ -83,14 +83,15 @@ Space space(std::span<const hsize_t> dimensions);
 void select(const Space& space, std::span<const hsize_t> start, std::span<const hsize_t> count);
 
 enum class Access { read, write };
-/// Opens a file. If it is read and joins other files, these must be plain files below its folder.
+/// Opens a file. If it is opened for reading and joins other files, these must be plain files below
+/// its folder.
 File open_file(const std::string& path, Access access);
 /// Opens a file without checking the files that it joins.
 File open_alone(const std::string& path, Access access);
 
-/// A file that ranks have open through MPI-IO, each to read or write its own rows. After a failure
-/// no collective function may be called for it, so it then stays open until the program's end,
-/// unless it was closed before.
+/// A file that all ranks open together through MPI-IO; each rank reads or writes its own rows.
+/// After a failure no collective function may be called for it. So unless it has been closed
+/// before, it stays open until the program ends.
 class SharedFile {
 public:
     SharedFile() = default;
@@ -132,7 +133,7 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
 /// Writes a string of variable length; h5py reads strings of fixed length as bytes.
 void write_any_length(hid_t object, const std::string& name, const std::string& text);
 
-/// Creates a data set and writes all of it from this process; one value if there is no dimension.
+/// Creates a data set and writes all of it from this process; one value if `dimensions` is empty.
 void write_whole(hid_t parent, const std::string& name, std::span<const hsize_t> dimensions,
                  hid_t type, const void* values);
 template <class Numbers>
@@ -169,19 +170,19 @@ struct RowRange {
 std::uint64_t n_rows_of(hid_t dataset);
 
 /// Reads rows, at least one, of a data set. Not collective, because a rank's rows are one large
-/// piece of the file, which MPI-IO need not gather.
+/// piece of the file, so MPI-IO has nothing to gather.
 void read_rows(hid_t dataset, const RowRange& rows, hid_t type, void* numbers);
 
 /// Independent: each rank writes when it is ready. Collective: all ranks write together, and MPI-IO
 /// may let a few of them write large pieces for all.
 enum class Transfer { independent, collective };
 
-/// Writes this rank's rows of a data set, or none. **Collective** if `transfer` is collective.
+/// Writes this rank's rows, if any, of a data set. **Collective** if `transfer` is collective.
 void write_rows(hid_t dataset, const RowRange& rows, hid_t type, const void* numbers,
                 Transfer transfer);
 
 /// Makes a file and calls `build(file)` to fill it. Throws FileError if a file or a symbolic link
-/// of that name exists. Data sets from 64 KiB on begin at multiples of 4096 bytes.
+/// of that name exists. Data sets of at least 64 KiB begin at multiples of 4096 bytes.
 void create_file(const std::string& path, const std::function<void(hid_t file)>& build);
 
 } // namespace carrom::h5

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lists the folders of a path that do not exist yet. When the list is destroyed, it removes those
-// that then exist and are empty, so that a failed run leaves no empty folders. For one rank.
+// of them that exist by then and are empty, so that a failed run leaves no empty folders. Used on
+// one rank.
 #pragma once
 
 #include <string>

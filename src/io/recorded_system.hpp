@@ -20,11 +20,12 @@ struct RecordedSystem {
     double radius = 0;            ///< the largest radius
     std::vector<Species> species; ///< empty if all discs have that radius and mass 1
     bool is_periodic_x = false, is_periodic_y = false;
-    /// Whether discs may be outside of the left, right, bottom and top side
+    /// Whether the left, right, bottom and top sides are open; discs may then be outside of them
     std::array<bool, 4> open_boundaries{};
     /// Amplitudes of swinging walls: discs may be outside of the box by at most these distances
     std::array<double, 4> amplitudes{};
-    /// The users' origin. It and positions in files are relative to the box's lower left corner.
+    /// The origin of users' coordinates. It and positions in files are relative to the box's lower
+    /// left corner.
     std::array<double, 2> origin{};
     /// Units, such as "nm" and "ps"; empty if the scene names no units
     std::string length_unit, time_unit;

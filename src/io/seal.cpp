@@ -51,7 +51,7 @@ std::uint64_t length_at(std::string_view bytes) {
     return length;
 }
 
-/// Whether HDF5 reaches the end of a heap's list of objects. Free space has the number 0.
+/// Whether HDF5 reaches the end of a heap's list of objects. Free space is an object with number 0.
 bool has_end(std::string_view heap) {
     if (heap.size() < heap_header) return true;
     const std::uint64_t size = length_at(heap.substr(place_of_size));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks of a small HDF5 file's bytes before HDF5 reads them, because HDF5 may hang on damage.
+// Checks the bytes of a small HDF5 file before HDF5 reads them, because HDF5 may hang on damage.
 //
-// A file that joins segments ends with a seal: a mark and the XXH3-128 of all bytes before. So any
-// damage is found in milliseconds. If the seal itself is damaged, or another program has written
-// the file, `check_heaps` detects the one damage on which HDF5 is known to loop for ever.
+// A file that joins segments ends with a seal: a mark and the XXH3-128 of all bytes before the
+// checksum. So any damage is found in milliseconds. If the seal itself is damaged, or another
+// program has written the file, `check_heaps` detects the one kind of damage on which HDF5 is known
+// to loop for ever.
 #pragma once
 
 #include <optional>
@@ -16,12 +17,12 @@ namespace carrom {
 /// Appends the mark and the checksum to a file that joins segments, and syncs it to disk.
 void seal_index(const std::string& path);
 
-/// Reads the checksum at the end of a file that joins
-/// segments, without testing it; nothing for other files.
+/// Returns the checksum at the end of a file that joins segments, without testing it; nothing for
+/// other files.
 std::optional<StateHash> seal_of(const std::string& path);
 
-/// Returns whether the file ends with a seal. Throws FileError if the seal does not match its
-/// bytes.
+/// Returns whether the file ends with a seal. Throws FileError if the checksum of the seal
+/// is wrong.
 bool check_seal(const std::string& path);
 
 /// Throws FileError if a global heap of HDF5, which contains the names of segments, has an object

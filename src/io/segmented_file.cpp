@@ -34,7 +34,7 @@ Index index_of(const std::string& path, bool are_rows_wanted) {
     return std::move(*index);
 }
 
-/// A data space of these sizes, in which `n_rows` rows from row `first` on are selected.
+/// A data space of these dimensions, in which `n_rows` rows from row `first` on are selected.
 h5::Space rows_of(const std::vector<hsize_t>& sizes, std::uint64_t first, std::uint64_t n_rows) {
     h5::Space space = h5::space(sizes);
     std::vector<hsize_t> start(sizes.size(), 0), count = sizes;
@@ -87,7 +87,7 @@ bool SegmentedFile::go_on(const std::string& step, std::int64_t last,
     return true;
 }
 
-/// Throws if there are segments without a joining file, because they may be part of a recording.
+/// Throws if there is a segment without a joining file, because it may be part of a recording.
 void SegmentedFile::refuse_segments() const {
     const std::string name = segment_name(path_, 1);
     std::error_code error;
@@ -220,7 +220,8 @@ void SegmentedFile::write_virtual(hid_t file, const RecordedColumn& column) cons
                     "cannot join segments");
         first += segment.rows;
     }
-    // The fill value is NaN, so that readers do not get zeros if a segment is missing.
+    // The fill value is NaN, or -1 for integers, so that readers do not get zeros if a segment is
+    // missing.
     const double not_a_number = std::numeric_limits<double>::quiet_NaN();
     const std::int64_t none = -1;
     if (H5Tget_class(column.type) == H5T_FLOAT)
@@ -248,7 +249,7 @@ void SegmentedFile::sync_segment() const {
     Descriptor(folder_of(path), O_RDONLY | O_DIRECTORY).sync();
 }
 
-/// Throws if another program's file has the small file's name, because a commit would replace it.
+/// Throws if another program has replaced the small file, because a commit would replace that file.
 void SegmentedFile::refuse_other_file() const {
     std::error_code error;
     const auto is_there = [&] { return std::filesystem::exists(path_, error); };

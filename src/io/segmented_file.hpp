@@ -3,8 +3,8 @@
 //
 // Readers open run/trajectory.h5. Its columns are HDF5 virtual datasets over the segments
 // run/trajectory/0001.h5, 0002.h5 and so on. A segment gets its whole structure and space when it
-// is made. Later only numbers are written there, because HDF5 itself would rewrite the superblock,
-// which a kill could damage.
+// is made. Later, numbers are written there without HDF5, because HDF5 would rewrite the
+// superblock, and a kill could damage it.
 //
 // A commit syncs the numbers to disk and replaces the small file by rename. The small file contains
 // the number of valid rows and checksums of all bytes; its own checksum follows its last byte,
@@ -27,7 +27,8 @@
 
 namespace carrom {
 
-/// A column. Its rows have `row` numbers along each axis, or one number if there is no axis.
+/// A column. `row` is the number of components along each axis of a row; a row is one number if
+/// `row` is empty.
 struct RecordedColumn {
     std::string path;         ///< path of the data set in the file that readers open
     hid_t type;               ///< type of 4 or 8 bytes, little-endian, also in memory
@@ -59,8 +60,8 @@ public:
     /// Makes the rows so far permanent and visible to readers. **Collective.**
     void commit();
 
-    /// Runs `act`, a part of adding rows, on rank 0 alone. `finish_addition` throws its errors
-    /// later, because rank 0 must first receive everything that other ranks send.
+    /// Runs `act`, one of the operations that add rows, on rank 0 alone. `finish_addition` throws
+    /// its errors later, because rank 0 must first receive everything that other ranks send.
     template <class Act> void attempt(const Act& act) {
         if (!communicator_.is_root() || !failure_.empty()) return;
         try {
@@ -75,7 +76,7 @@ public:
     /// The number of rows, at least 1, that can be written before the next `add`. May make a
     /// segment.
     std::uint64_t room();
-    /// Writes numbers of a column's next rows. They become valid by `add`, for all columns
+    /// Writes numbers of a column's next rows. `add` then makes these rows valid, for all columns
     /// together.
     void write(std::size_t column, std::span<const std::byte> numbers);
     void add(std::uint64_t n_rows);
@@ -104,7 +105,7 @@ private:
     std::uint64_t n_rows_ = 0;
     bool is_cut_ = false;                ///< whether rows were cut off since the last commit
     ColumnHashers hashers_;              ///< hashes of the last segment's columns
-    std::vector<std::uint64_t> written_; ///< bytes written to each column since `add`
+    std::vector<std::uint64_t> written_; ///< bytes written to each column since the last `add`
     /// The last segment. It stays open, so that writes never reach another file of this name.
     std::unique_ptr<Descriptor> open_;
     std::uint64_t open_size_ = 0; ///< full size of the last segment in bytes, which does not change

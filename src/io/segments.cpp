@@ -16,7 +16,7 @@ namespace {
 constexpr const char *columns_path = "/carrom/recording/columns",
                      *segments_path = "/carrom/recording/segments";
 constexpr std::uint64_t largest_column = std::uint64_t{1} << 60;
-constexpr std::size_t n_fixed = 6; ///< numbers of a segment before the offsets of its columns
+constexpr std::size_t n_fixed = 6; ///< numbers in the entry of a segment before its column offsets
 
 Index read_index(hid_t file, const std::string& path) {
     Index index{h5::read_column<std::uint64_t>(file, columns_path), {}};
@@ -49,7 +49,7 @@ std::string segment_path(const std::string& joining, const std::string& name) {
     return (std::filesystem::path(folder_of(joining)) / name).string();
 }
 
-/// A column's hash begins with its number, so that swapped columns change the checksum.
+/// The hash of a column begins with the column's number, so swapped columns change the checksum.
 ColumnHashers hashers_of_columns(std::size_t n_columns) {
     ColumnHashers hashers(n_columns);
     for (std::size_t k = 0; k < n_columns; ++k) hashers[k].add(std::as_bytes(std::span(&k, 1)));

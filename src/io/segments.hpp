@@ -36,7 +36,7 @@ std::string segment_name(const std::string& path, std::size_t number);
 /// The path of a segment; `joining` is the path of the joining file.
 std::string segment_path(const std::string& joining, const std::string& name);
 
-/// The present hash of each column of a segment; the sum of their digests is the segment's
+/// The hashes so far of the columns of a segment; the sum of their digests is the segment's
 /// checksum.
 using ColumnHashers = std::vector<Hasher>;
 ColumnHashers hashers_of_columns(std::size_t n_columns);
@@ -51,8 +51,8 @@ StateHash hash_of_structure(const std::string& path, const FileSegment& segment,
 void write_index(hid_t file, const Index& index);
 
 /// The index of a file that joins segments; nothing if its last bytes show that it is another kind
-/// of file. Checks the file's own bytes and the structure of its segments, and all their rows if
-/// `are_rows_wanted`. Throws FileError, naming the segment.
+/// of file. Checks the file's own bytes and the structure of its segments, and also all their rows
+/// if `are_rows_wanted`. Throws FileError, which names the segment.
 std::optional<Index> read_checked_index(const std::string& path, bool are_rows_wanted);
 
 } // namespace carrom

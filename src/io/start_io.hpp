@@ -9,7 +9,7 @@ namespace carrom {
 /// Call it once, before MPI starts. HDF5 then does nothing at the program's end. Otherwise it would
 /// repeat a failed write, at which HDF5 1.10 crashes, so that the exit code is lost. HDF5 does not
 /// lock files, whatever HDF5_USE_FILE_LOCKING is, follows no links into other files and loads no
-/// plugins. A write beyond the limit of file sizes (ulimit -f) fails like any other, instead of
+/// plugins. A write beyond the limit of file sizes (ulimit -f) then returns an error instead of
 /// ending the process.
 void start_io();
 

@@ -10,8 +10,8 @@
 
 namespace carrom {
 
-/// Writes a new file and replaces the file at `path` by it.
-/// Called on one rank. Returns the problem, or an empty text.
+/// Writes the tables to a new file, which replaces any file at `path`. Called on one rank. Returns
+/// the problem, or an empty text.
 std::string write_table_file(const std::string& path, std::span<const MeasuredTable> tables);
 
 /// Whether a file contains tables of Carrom. Other files of that name, and files that cannot be

@@ -20,8 +20,8 @@ namespace carrom {
 
 namespace {
 
-/// The number of discs that rank 0 collects in one round. It rises with the number of ranks, so
-/// that a frame needs as many messages from 256 ranks as from 16.
+/// The number of discs that rank 0 collects in one round. From 16 to 256 ranks it is proportional
+/// to the number of ranks, so that the number of messages for a frame does not grow.
 std::uint64_t discs_at_a_time(int n_ranks) {
     constexpr std::uint64_t least = std::uint64_t{1} << 16, most = std::uint64_t{1} << 20;
     return std::clamp(least / 16 * static_cast<std::uint64_t>(n_ranks), least, most);
@@ -104,7 +104,8 @@ void write_structure(hid_t file, const TrajectoryLayout& layout) {
     }
 }
 
-/// Selects the words of a disc that rank 0 collects: the layout's fields, without constant zeros.
+/// Selects the words of a disc that rank 0 collects: the layout's fields, without components that
+/// are always 0.
 class CollectedWords {
 public:
     explicit CollectedWords(const std::vector<Field>& fields) {
@@ -149,8 +150,8 @@ public:
                   [discs](LocalIndex a, LocalIndex b) { return discs[a].id < discs[b].id; });
     }
 
-    /// Returns the collected words of the ids [begin, end), which must follow the ids of the last
-    /// call; nothing on other ranks. **Collective.**
+    /// Returns the collected words of the ids [begin, end) on rank 0, and an empty span on other
+    /// ranks. `begin` must be the `end` of the previous call. **Collective.**
     std::span<const std::uint64_t> next(std::uint64_t begin, std::uint64_t end) {
         const std::size_t width = collected_.n();
         std::vector<std::uint64_t> mine; // the id of each disc, and then its words
@@ -310,7 +311,7 @@ void Trajectory::append(std::int64_t step, std::span<const DiscState> discs, dou
 
 void Trajectory::commit() {
     file_->commit();
-    // Describes all frames, so it runs only when their number has risen by a quarter.
+    // `describe` writes all frames, so it is called only after their number has risen by a quarter.
     if (communicator_.any(communicator_.is_root() &&
                           steps_.size() >= n_described_ + n_described_ / 4 + 1))
         describe();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames of a run at regular steps as H5MD, with discs in the order of their ids.
+// Frames of a run at regular steps as H5MD, with discs in order of id.
 //
-// Frames stream through rank 0 in slabs of ids. So a kill does not damage them, and they can be
-// read during the run (SegmentedFile), but they are written only as fast as one rank can. An XDMF
+// Frames pass through rank 0 in slabs of ids. So a kill does not damage them, and they can be read
+// during the run (SegmentedFile), but they are written only as fast as one rank can. An XDMF
 // description for ParaView and VisIt is written beside the file.
 #pragma once
 
@@ -56,18 +56,17 @@ public:
     /// none.
     std::int64_t recorded_before() const { return recorded_before_; }
 
-    /// Adds a frame: the discs at `clock`, in any distribution over the ranks.
-    /// Columns and computed numbers of the layout, if any, are in the order of
-    /// `discs`. If the layout has images, each rank passes the images of a range
-    /// of ids, which follows the range of the previous rank. `box` is null if its sides are those
-    /// of the layout. **Collective.**
+    /// Adds a frame: the discs at `clock`, in any distribution over the ranks. Columns and computed
+    /// numbers of the layout, if any, are in the order of `discs`. If the layout has images, each
+    /// rank passes the images of a range of ids, which follows the range of the previous rank. If
+    /// `box` is null, the frame has the layout's box. **Collective.**
     void append(std::int64_t step, std::span<const DiscState> discs, double clock,
                 const SideSpans& columns = {},
                 std::span<const ComputedNumbers> computed_numbers = {},
                 std::span<const DiscImage> images = {}, const Box* box = nullptr);
 
-    /// Makes all frames so far permanent and visible to readers. Writes the XDMF description again
-    /// if many frames are missing there. **Collective.**
+    /// Makes all frames so far permanent and visible to readers. Also rewrites the XDMF description
+    /// if it lacks many frames. **Collective.**
     void commit();
 
     /// Describes all frames in XDMF, for tools based on VTK. **Collective.**

@@ -21,7 +21,8 @@ namespace carrom {
 
 namespace {
 
-/// Waits up to `patience` for the lock, because a run that was just killed may still be ending.
+/// Tries for up to `patience` to take the lock, because a run that was just killed may still be
+/// ending.
 constexpr std::chrono::milliseconds patience(2000), pause(50);
 
 std::string this_process() {
@@ -48,7 +49,7 @@ WriteLock::WriteLock(std::string path, MadeFolders made)
 
 WriteLock::~WriteLock() {
     if (file_ < 0) return;
-    // removes the file before the lock is released, because no other run can have the lock then
+    // removes the file before it releases the lock, because no other run can hold the lock then
     if (!is_lost()) ::unlink(path_.c_str());
     ::close(file_);
 }

@@ -2,7 +2,7 @@
 // Allows only one run at a time to write to a path. Otherwise two runs would remove each other's
 // files or write to the same file.
 //
-// The lock is flock's, on a small file of its own, because runs replace their other files. The
+// The lock is taken by flock on a small separate file, because runs replace their other files. The
 // kernel releases it when the process ends. Lustre shares it between nodes if it is mounted with
 // `flock`. On a file system without locks there is no protection.
 #pragma once

@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-/// A frame: one row of a segment.
+/// Where a frame is stored: one row of a segment.
 struct Row {
     const FileSegment& segment;
     std::uint64_t number;

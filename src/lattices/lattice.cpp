@@ -48,17 +48,18 @@ double nearest_share(const Shape& shape) {
     return std::min({in_row, next_row, second_row});
 }
 
-/// Half the gap to the next disc in a square. With w = L - 2r - 2s the width of the
-/// lattice and q w the nearest distance, the free radius s solves q w - 2r = 2s.
+/// Half the gap between nearest neighbours in a square box. With the width w = L - 2r - 2s of the
+/// lattice and its nearest distance q w, the free radius s solves q w - 2r = 2s.
 double free_radius_in_square(const Shape& shape, double side, double radius) {
     const double q = nearest_share(shape);
     const double span = side - 2 * radius;
     return std::isfinite(q) ? (q * span - 2 * radius) / (2 * (1 + q)) : span / 2;
 }
 
-/// Half the gap in a rectangle with edges `length` along and `height` across rows. Sites span the
-/// edges minus d, with the distance d = 2r + 2s of neighbours. So each kind of neighbour gives an
-/// equation for d, and the smallest solution counts. Staggered rows give A d^2 - 2 B d + C = 0.
+/// Half the gap in a rectangular box, with the edges `length` along rows and `height` across them.
+/// Sites span each edge minus d, where d = 2r + 2s is the distance between nearest neighbours. So
+/// each kind of neighbour gives an equation for d, and the smallest solution counts. Staggered rows
+/// give A d^2 - 2 B d + C = 0.
 double free_radius_in(const Shape& shape, double length, double height, double radius) {
     if (length == height) return free_radius_in_square(shape, length, radius);
     double nearest = std::numeric_limits<double>::infinity();
@@ -73,7 +74,7 @@ double free_radius_in(const Shape& shape, double length, double height, double r
         nearest = std::min(nearest, rest / (half + root));
         if (shape.lattice.rows > 2) nearest = std::min(nearest, 2 * height / (2 + shape.y_spans));
     }
-    // In a narrow tube the walls are nearer than other discs
+    // In a narrow tube the walls are closer than other discs
     return std::min({nearest, length, height}) / 2 - radius;
 }
 
@@ -115,8 +116,8 @@ std::optional<Lattice> widest_lattice(std::uint64_t n_discs, const Box& box, dou
     try_rows_along(longer_axis(box), n_discs, box, radius, widest);
     if (!box.is_square())
         try_rows_along(other_axis(longer_axis(box)), n_discs, box, radius, widest);
-    // Neighbours may touch. An overlap from a rounding error of an edge of the
-    // box is within the method's tolerance.
+    // Neighbours may touch. An overlap as small as the rounding error of an edge of the box is
+    // within the tolerance of the method.
     if (widest->free_radius < -0x1p-52 * box.longest()) return std::nullopt;
     widest->free_radius = std::max(widest->free_radius - 0x1p-49 * box.longest(),
                                    0.0); // rounding must not make the gap negative

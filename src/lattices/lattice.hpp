@@ -23,7 +23,7 @@ struct Lattice {
     std::uint64_t rows = 0, columns = 0; ///< columns: number of sites in an even row
     bool is_staggered = false;           ///< odd rows are shifted by half a spacing
     bool odd_rows_are_shorter = false;   ///< odd rows have one site less
-    Axis axis = Axis::x;                 ///< rows run along this axis; x below means this axis
+    Axis axis = Axis::x;                 ///< rows run along this axis, which is called x below
     double x0 = 0, y0 = 0;               ///< position of the first site
     double dx = 0, dy = 0;               ///< spacing in a row, and between rows
     double free_radius = 0;              ///< s: the distance by which each disc may be moved
@@ -31,7 +31,8 @@ struct Lattice {
     std::uint64_t n_sites() const { return rows * columns - (odd_rows_are_shorter ? rows / 2 : 0); }
 };
 
-/// Nothing if even the widest lattice has overlaps. Needs n_discs > 0, edges >= 2 radius > 0.
+/// The lattice with the widest gaps; nothing if discs overlap even on it. Needs n_discs > 0 and
+/// edges >= 2 radius > 0.
 std::optional<Lattice> widest_lattice(std::uint64_t n_discs, const Box& box, double radius);
 
 struct Point {
@@ -43,10 +44,10 @@ struct Point {
 /// The site of disc `id`.
 Point lattice_site(const Lattice& lattice, DiscId id);
 
-/// A site, moved to a random place within `free_radius`. Rows lie along `axis`.
+/// The site, shifted to a random position within `free_radius`. Rows lie along `axis`.
 Point shaken(Point site, double free_radius, std::uint64_t seed, DiscId id, Axis axis = Axis::x);
 
-/// The site, shifted to a random position within `free_radius`.
+/// The site of disc `id`, shifted to a random position within the free radius.
 Point shaken_site(const Lattice& lattice, DiscId id, std::uint64_t seed);
 
 /// A number coprime to n and near the golden section of n. Steps of this size through the sites mix

@@ -15,7 +15,7 @@ namespace {
 /// The distance between rows, in spacings.
 constexpr double row_height = std::numbers::sqrt3 / 2;
 
-/// The ratio of rows to columns for this box, if they need not be whole numbers.
+/// The ratio of rows to columns with which the lattice would fit this box exactly.
 double shape_of(const Box& box, Axis axis) {
     return along(other_axis(axis), box) / along(axis, box) / row_height;
 }

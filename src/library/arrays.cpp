@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of all discs by their ids, for programs that work on arrays. Threads fill them without a
-// sort, because a disc's place in an array is its id.
+// Fills arrays with numbers of discs, indexed by id, for programs that work on arrays. Threads fill
+// them without sorting, because a disc's index in an array is its id.
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -15,7 +15,7 @@ namespace carrom {
 
 namespace {
 
-/// Below this number of discs of a rank, waking the threads takes longer than a pass on one thread.
+/// With fewer discs on a rank than this, waking the threads takes longer than a pass on one thread.
 constexpr std::int64_t least_for_threads = 32768;
 
 void check_size(const char* call, std::size_t size, std::uint64_t wanted) {
@@ -32,7 +32,8 @@ using PairOfWords [[gnu::vector_size(16)]] = std::int64_t;
     return Pair{disc.x, disc.y} + Pair{disc.vx, disc.vy} * (time - disc.tau);
 }
 
-/// Not inlined, so that the loop over all discs is short.
+/// Puts the position in the box of a disc that may be outside. Not inlined, so that the loop over
+/// all discs is short.
 template <class Put>
 [[gnu::noinline]] void put_from_outside(const Frame& frame, const DiscState& stored, double time,
                                         const Put& put) {
@@ -42,7 +43,7 @@ template <class Put>
 
 /// Calls `put(id, place)` for each disc of this rank, on all threads if there are many discs. In a
 /// moving frame it calls `put` a second time, with the right position, for a disc that may have
-/// crossed a periodic side or has departed. So `put` must overwrite.
+/// crossed a periodic side or has departed. So `put` must overwrite earlier values.
 template <class Put> void for_each_place(const Run& run, const Put& put) {
     const DiscSystem& system = run.system();
     const std::span<const DiscState> discs = system.discs();
@@ -60,7 +61,7 @@ template <class Put> void for_each_place(const Run& run, const Put& put) {
             const DiscState& disc = discs[static_cast<std::size_t>(i)];
             const Pair place = place_at(disc, time) + moved;
             put(disc.id, place);
-            // Inside, places have the sign +, and their differences from the upper side the sign -.
+            // In the box, coordinates are >= 0, and their differences from the upper sides are < 0.
             const auto signs = std::bit_cast<PairOfWords>(place) |
                                ~std::bit_cast<PairOfWords>(place - high);
             if ((signs[0] | signs[1]) < 0 || disc.has_departed()) [[unlikely]]
@@ -75,7 +76,8 @@ template <class Put> void for_each_place(const Run& run, const Put& put) {
     }
 }
 
-/// Calls `put(disc, i)` for each disc i of this rank, in the frame of the box, on all threads.
+/// Calls `put(disc, i)` for each disc i of this rank, in the frame of the box, on all threads if
+/// there are many discs.
 template <class Put> void for_each_shown(const Run& run, const Put& put) {
     const DiscSystem& system = run.system();
     const std::span<const DiscState> discs = system.discs();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Copies of a simulation in memory, and changes of discs by the program between steps.
+// Copies simulations in memory, and changes discs between steps for the calling program.
 //
-// Both continue from the stored state as a restart from a checkpoint does, so they also have the
-// same bits on any number of ranks and threads. A changed disc starts anew at the present time. All
+// Both continue from the stored state like a restart from a checkpoint, so they also have the same
+// bits on any number of ranks and threads. A changed disc starts anew at the present time. All
 // others keep their stored bits, so setting a disc to its present values changes nothing. Cost:
-// about the time to set up a run of these discs, and the memory of a second run meanwhile.
+// about the time to set up a run of these discs, and meanwhile the memory of a second run.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -24,7 +24,7 @@ namespace carrom {
 namespace {
 
 constexpr const char* call_name = "change_discs";
-constexpr std::size_t most_named = 5; ///< most problems of discs that a message lists for each rank
+constexpr std::size_t most_named = 5; ///< most discs per rank whose problems a message lists
 
 /// The region in which discs' centres may be at the present step.
 class Room {
@@ -78,7 +78,7 @@ struct Change {
     bool is_on() const { return of_place || of_velocity || of_spin; }
 };
 
-/// The disc with coordinates from the box's lower left corner; unchanged ones keep all bits.
+/// The disc with coordinates relative to the box's lower left corner; unchanged ones keep all bits.
 Disc counted_from_corner(Disc disc, const DiscState& shown, const Origin& origin) {
     disc.x = disc.x == shown.x - origin.x ? shown.x : disc.x + origin.x;
     disc.y = disc.y == shown.y - origin.y ? shown.y : disc.y + origin.y;
@@ -91,7 +91,8 @@ Change change_of(const Disc& disc, const DiscState& shown, double unit, double s
             disc.vx != shown.vx * unit || disc.vy != shown.vy * unit, disc.spin != spin};
 }
 
-/// Starts the disc anew at the present time. `shown` is its old state in the frame of the box.
+/// Writes the changed disc to `stored`, with the present time. `shown` is its old state in the
+/// frame of the box.
 void apply(const Disc& disc, const Change& change, const DiscState& shown, const Frame& frame,
            double time, double unit, DiscState& stored) {
     const double x = stored.x_at(time), y = stored.y_at(time);
@@ -119,7 +120,7 @@ void refuse_spins_of_smooth(const std::vector<Disc>& discs, const Run& run) {
                            "set effects.contact.kind = \"rough\" in the scene"}});
 }
 
-/// The problems of the given discs, which are in the order of their ids like `present`.
+/// The problems of the given discs. Both lists must be in order of id.
 std::vector<Problem> problems_of(const std::vector<Disc>& discs, const std::vector<Disc>& present,
                                  const Run& run) {
     const auto has_same_id = [](const Disc& a, const Disc& b) { return a.id == b.id; };

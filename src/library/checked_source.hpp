@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns a public Scene, which is keys and text, into a checked scene and its first discs.
+// Turns a public Scene, which consists of keys and text, into a checked scene and its first discs.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@
 namespace carrom {
 
 /// Runs `read`. If it throws InputError, the problems name keys as the program has set them, and
-/// not as options of the command line.
+/// not as command-line options.
 template <class Read> auto with_named_keys(const Read& read) {
     try {
         return read();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Access to the State of a public object, unless it was moved from.
+// Gives access to the State of a public object, unless the object was moved from.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace carrom {
 
-/// Throws InputError if the object, whose class is named, has no State because it was moved from.
+/// Throws InputError if the object has no State because it was moved from. `name` is its class.
 template <class State>
 State& live_part(const std::unique_ptr<State>& state, const std::string& name) {
     if (!state)

@@ -55,7 +55,7 @@ Scene Scene::from_text(std::string_view text, const std::string& name) {
 
 Scene& Scene::set(std::string_view key, std::string_view value) {
     std::string setting = fmt::format("{}={}", key, value);
-    // Line breaks become spaces, because files have one setting a line
+    // Line breaks become spaces, because files have one setting per line
     std::replace(setting.begin(), setting.end(), '\n', ' ');
     source_.settings.push_back(std::move(setting));
     return *this;
@@ -140,7 +140,7 @@ FirstState first_state(const Scene& scene, const Communicator& ranks, const Tuni
     let_root(ranks, [&] {
         if (!source.text.discs_follow) return;
         source.stream = std::make_unique<std::ifstream>(open_input(source.text.name));
-        read_scene_text(*source.stream, source.text.name); // skips up to the first disc
+        read_scene_text(*source.stream, source.text.name); // moves the stream to the first disc
     });
     FirstState first;
     first.scene = with_named_keys(

@@ -23,8 +23,8 @@ struct Simulation::State {
     State& operator=(const State&) = delete;
 
     Run& run() const { return *run_; }
-    /// Replaces the state at the present step by `start`. Throws InputError and changes nothing if
-    /// more than `most_overlaps` pairs overlap, if it is set. **Collective.**
+    /// Replaces the state at the present step by `start`. If `most_overlaps` is set and more pairs
+    /// overlap in `start`, throws InputError and changes nothing. **Collective.**
     void replace(RunStart start, std::optional<std::uint64_t> most_overlaps);
     /// **Collective.**
     void keep_checkpoints(CheckpointOutput wanted);

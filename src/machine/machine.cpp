@@ -32,20 +32,20 @@ namespace carrom {
 namespace {
 
 constexpr int most_threads = 1024;
-/// The largest number of threads for each core that gives no
-/// warning. Two are usual in trials on small machines.
+/// The largest number of threads per core that gives no warning. Two are usual in trials on small
+/// machines.
 constexpr int most_crowded = 2;
 /// Up to two threads give no warning, however few discs a rank has.
 constexpr int few_threads = 2;
 
-/// The variable OMP_NUM_THREADS. If it is empty it counts as unset, because a batch script may set
-/// it from a variable that does not exist.
+/// The variable OMP_NUM_THREADS. An empty value counts as unset, because a batch script may set it
+/// from a variable that does not exist.
 std::string thread_variable() {
     const char* text = std::getenv("OMP_NUM_THREADS");
     return text == nullptr ? "" : text;
 }
 
-/// OMP_NUM_THREADS may be a list for nested regions; the first number is for the outermost one.
+/// OMP_NUM_THREADS may be a list for nested regions; the first number is for the outermost region.
 /// Returns 0 if it is not a number.
 int threads_from_environment() {
     const std::string text = thread_variable();
@@ -182,7 +182,7 @@ BuildFacts build_facts() { return {CARROM_COMPILER, CARROM_FLAGS, CARROM_COMMIT}
 
 std::string vector_target() {
     const auto usable = static_cast<std::uint64_t>(hwy::SupportedTargets() & HWY_TARGETS);
-    const std::uint64_t best = usable & (~usable + 1); // the lowest bit
+    const std::uint64_t best = usable & (~usable + 1); // the lowest bit is the best target
     return hwy::TargetName(static_cast<std::int64_t>(best));
 }
 

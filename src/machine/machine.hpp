@@ -28,22 +28,22 @@ std::string vector_target();
 /// The processor's name; empty if the system does not report it.
 std::string processor_name();
 
-/// The number of threads of this rank if the user has not chosen one: OMP_NUM_THREADS, or the cores
-/// that the rank may use, divided by the number of ranks of its node that may use the same cores;
-/// at least 1. **Collective.**
+/// The default number of threads of this rank: OMP_NUM_THREADS if it is set. Otherwise the number
+/// of cores that the rank may use, divided by the number of ranks on its node that may use the same
+/// cores, but at least 1. **Collective.**
 int default_threads(const Communicator& ranks);
 
 /// Throws CollectiveError if a rank cannot start this many threads, because OpenMP would then end
 /// the program with its own exit code. **Collective.**
 void check_threads(int threads, const Communicator& ranks);
 
-/// Names the limit of this process by which MPI and threads have too little memory or too few open
-/// files to start; empty if there is none. Otherwise libraries would end the program with exit
-/// codes of their own.
+/// An error message if a limit of this process, on memory or on open files, is too low for MPI and
+/// threads to start; else empty. Without this check libraries would end the program with their own
+/// exit codes.
 std::string limit_in_the_way();
 
 /// A warning with a better number of threads if a rank has more threads than cores, if ranks that
-/// share cores have more than two threads a core together, or if a rank has more threads than its
+/// share cores together have more than two threads per core, or if a rank has more threads than its
 /// discs can use; else empty. **Collective.**
 std::string warning_of_crowded_threads(int threads, std::uint64_t n_discs,
                                        const Communicator& ranks);
@@ -52,9 +52,9 @@ std::string warning_of_crowded_threads(int threads, std::uint64_t n_discs,
 /// empty.
 std::string warning_of_thread_variable();
 
-/// The memory in bytes that this rank may use: the least of its share of the node's memory, its
-/// share of its control group's limit, and the limit of its process; the largest number if the
-/// system does not report them. **Collective.**
+/// The memory in bytes that this rank may use: the smallest of its share of the node's memory, its
+/// share of its control group's limit, and the limit of its process; a huge number if the system
+/// reports none of these. **Collective.**
 std::uint64_t memory_per_rank(const Communicator& ranks);
 
 /// The largest memory in bytes that this process has used at any time; 0 if the system does not

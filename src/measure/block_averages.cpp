@@ -13,9 +13,9 @@ namespace carrom {
 
 namespace {
 
-/// Samples are at most this many micro-steps apart, or a sync interval if that is longer.
+/// Samples are at most this many micro-steps apart, or one sync interval if that is longer.
 constexpr std::int64_t usual_interval = 64;
-/// A run that ends at this step or later takes a sample at each step at first. These hundred or so
+/// A run whose last step is this or later begins with a sample at each step. These hundred or so
 /// extra samples cost little in a long run, and give error estimates to a user who stops early.
 constexpr std::int64_t many_steps = 1'000'000;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -38,8 +38,8 @@ void BlockAverages::begin() {
     first_step_ = block_step_ = sample_step_ = run_.system.step();
     interval_.emplace(run_.system, run_.ranks);
     present_ = {};
-    // A sample costs some nanoseconds a disc and, between syncs, one more window of the
-    // event-driven method. A run whose energy changes needs more samples.
+    // Few samples are planned, because each costs some nanoseconds a disc and, between syncs, one
+    // more window of the event-driven method. A run whose energy changes needs more samples.
     const auto wanted = static_cast<std::int64_t>(system_.keeps_energy ? fewest_blocks
                                                                        : most_blocks / 2);
     steps_per_sample_ = std::clamp<std::int64_t>((system_.last_step - first_step_) / wanted, 1,
@@ -51,7 +51,7 @@ void BlockAverages::begin() {
 }
 
 /// Whether the first samples are taken at each step. This is so in long runs, unless effects make
-/// the energy jump at syncs, because the interval of samples is then chosen to suit the syncs.
+/// the energy jump at syncs: the time between samples is then chosen to suit the syncs.
 bool BlockAverages::begins_with_steps() const {
     return system_.last_step >= many_steps && !does_energy_jump(run_.scene.effects);
 }
@@ -63,7 +63,7 @@ bool BlockAverages::is_short(const Block& whole, double collisions_per_disc) con
 }
 
 /// Returns the number of steps between samples, at most `steps`. If possible, it is chosen so that
-/// samples fall on each step between two syncs in turn.
+/// samples fall, one after the other, on all phases of the sync interval that have steps.
 std::int64_t BlockAverages::between_syncs(std::int64_t steps) const {
     for (std::int64_t less = steps; less > steps / 2; --less)
         if (std::gcd(less * system_.micro_steps, system_.sync_every) ==
@@ -166,7 +166,7 @@ void BlockAverages::keep(KeptNumbers& kept) {
     if (kept.is_right()) interval_.emplace(run_.system, run_.ranks, pending, last);
 }
 
-/// Stores or restores the blocks. They come last, so that their count need not be stored.
+/// Stores or restores the blocks. They are stored last, so that their number need not be stored.
 void BlockAverages::keep_blocks(KeptNumbers& kept) {
     if (!kept.is_restored())
         for (Block& block : blocks_) block.keep(kept);
@@ -175,7 +175,7 @@ void BlockAverages::keep_blocks(KeptNumbers& kept) {
             blocks_.emplace_back().keep(kept);
 }
 
-/// The block from the last sample up to `step`.
+/// The counts and integrals from the last sample up to `step`, at which `sample` was taken.
 BlockAverages::Block BlockAverages::block_up_to(std::int64_t step,
                                                 const MotionSample& sample) const {
     const MotionSample& before = interval_->last();
@@ -187,7 +187,7 @@ BlockAverages::Block BlockAverages::block_up_to(std::int64_t step,
     block.pairs = static_cast<double>(sample.pair_collisions - before.pair_collisions);
     const auto steps = static_cast<double>(step - sample_step_);
     block.motion = integrals_between(system_, before, sample, steps);
-    // Mean speed and kurtosis are assumed to change linearly between two samples
+    // Mean speed and kurtosis are assumed to change linearly between two samples.
     for (const MotionSample* one : {&before, &sample}) {
         block.speed += steps / 2 * one->mean_speed * one->speed_unit * system_.velocity_unit;
         block.kurtosis += steps / 2 * kurtosis_of(*one);
@@ -237,8 +237,8 @@ void BlockAverages::fill_pressures(Averages& result, const Block& whole) const {
     });
 }
 
-/// Equations (13c) and (19a) of Li et al. 2022: beta P from counts of collisions and the time. R^2
-/// is the sum of the squares of all velocities, and kT = R^2 / (2 N).
+/// Computes the pressures by equations (13c) and (19a) of Li et al. 2022, which give beta P from
+/// numbers of collisions in a time. R^2 is the sum of all squared velocities, kT = R^2 / (2 N).
 void BlockAverages::fill_counted_pressures(Averages& result, const Block& whole,
                                            const MotionSample& sample) const {
     const double n = system_.n_discs, area = system_.box.area();
@@ -298,8 +298,8 @@ Averages BlockAverages::averages() const {
     return result;
 }
 
-/// Computes Gamma(n + 1/2) / Gamma(n) by an asymptotic series (Tricomi and Erdelyi 1951) for n of
-/// 64 or more. Smaller n are first raised to this range by Gamma(n + 1) = n Gamma(n).
+/// Computes Gamma(n + 1/2) / Gamma(n) by an asymptotic series (Tricomi and Erdelyi 1951), which is
+/// used for n >= 64. A smaller n is first raised to 64 or more with Gamma(n + 1) = n Gamma(n).
 double gamma_ratio(double n) {
     double factor = 1;
     for (; n < 64; n += 1) factor *= n / (n + 0.5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The averages of every run. Their errors come from blocks of equal length in time. This
-// measurement is always on, and has its own sampling times.
+// The averages of every run. Their errors come from blocks of equal length in time. Averages are
+// measured in every run, and have their own sampling times.
 //
 // A block covers a number of steps. When there are `most_blocks` blocks, they are joined in pairs,
 // and later blocks are twice as long. Samples are taken at equal intervals, between syncs as well.
@@ -9,10 +9,11 @@
 // runs samples are 64 micro-steps or a sync interval apart, whichever is longer; short runs and
 // changing energies need closer samples. Cost of a sample: two passes over the discs, 5 ns a disc.
 //
-// Runs to step 1,000,000 or later whose energy does not jump at syncs begin with a sample at each
-// step and with blocks of single steps, so that a user who stops early gets error estimates.
-// Velocities stay correlated over several collisions, which short blocks cannot show, so an error
-// needs enough collisions. The scatter between runs is then at most 1.3 times the estimated error.
+// A run that ends at step 1,000,000 or later, and whose energy does not jump at syncs, begins with
+// a sample at each step and with blocks of single steps, so that a user who stops early gets error
+// estimates. Velocities stay correlated over several collisions, which short blocks cannot show, so
+// an error is estimated only after enough collisions. The standard deviation between runs is then
+// at most 1.3 times the estimated error.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +45,7 @@ public:
     /// The first step after `step` at which averages begin or a sample is due.
     std::int64_t next_due(std::int64_t step) const;
     void sample_if_due();
-    /// Begins the interval of integrals again at this step, after effects have changed velocities.
+    /// Restarts the interval of integrals at this step, because effects have changed velocities.
     void begin_interval() { interval_->begin(interval_->now()); }
     void sample(const SampledState& state) override;
     void keep(KeptNumbers& kept) override;
@@ -55,7 +56,7 @@ public:
     Averages averages() const;
 
 private:
-    /// Counts of collisions, and integrals over time in steps.
+    /// Numbers of collisions, and integrals over time, with times in steps.
     struct Block {
         double walls = 0, pairs = 0, speed = 0, kurtosis = 0;
         MotionIntegrals motion;
@@ -74,7 +75,7 @@ private:
     Block block_up_to(std::int64_t step, const MotionSample& sample) const;
     void keep_blocks(KeptNumbers& kept);
     bool lost_discs() const;
-    /// Runs that begin with single-step blocks need `collisions` pair collisions a disc for errors.
+    /// If a run begins with single-step blocks, an error needs `collisions` pair collisions a disc.
     template <class Value>
     Estimate estimate(const Block& whole, const Value& value, double collisions = 0) const;
     void fill_pressures(Averages& result, const Block& whole) const;
@@ -82,7 +83,7 @@ private:
                                 const MotionSample& sample) const;
 
     const AveragedSystem& system_;
-    /// The interval since the last sample; empty until averages begin
+    /// The interval since the last sample; unset until averages begin
     std::optional<MotionInterval> interval_;
     /// The first step, the first step of the present block, and the step of the last sample
     std::int64_t first_step_ = 0, block_step_ = 0, sample_step_ = 0;

@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// Sums `term` over all flights of all ranks; no term is larger than `largest`.
+/// Sums `term` over the flights of all ranks, `n` in all. No term may be larger than `largest`.
 template <class Term>
 double sum_over(std::span<const Flight> flights, double n, double largest,
                 const Communicator& ranks, const Term& term) {
@@ -21,7 +21,7 @@ double sum_over(std::span<const Flight> flights, double n, double largest,
     return sum.value();
 }
 
-/// Subtracts from one component of a vector its mean over all discs, weighted by mass.
+/// Subtracts from the component `axis` of a vector its mean over all discs, weighted by mass.
 void subtract_mean(std::vector<Flight>& flights, std::array<double, 2> Flight::* vector,
                    std::size_t axis, double n, double largest, double heaviest,
                    const Communicator& ranks) {

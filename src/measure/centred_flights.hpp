@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Displacements of discs, and their velocities at the beginning and now, relative to the centre of
-// mass.
+// Displacements of discs since an earlier time, and their velocities at that time and now, relative
+// to the centre of mass.
 //
 // If nothing stops the discs' common velocity V along a periodic axis, it adds V^2 t^2 to mean
 // square displacements and V^2 to mean products of velocities. This motion is not diffusion and
@@ -19,18 +19,20 @@
 
 namespace carrom {
 
-/// One disc's displacement, its velocities at the start of the displacement and now, and its mass.
+/// One disc's displacement `way`, its velocities at the start of the displacement and now, and its
+/// mass.
 struct Flight {
     std::array<double, 2> way{}, first_velocity{}, velocity{};
     double mass = 1;
 };
 
-/// Upper bounds of the absolute values of the vectors' components, the same on all ranks.
+/// Upper bounds of the absolute values of the components of `way` and of both velocities. They must
+/// be the same on all ranks.
 struct FlightBounds {
     double way = 0, velocity = 0;
 };
 
-/// Whether the common motion of `n_discs` discs along x, and along y, is subtracted.
+/// Whether the common motion of all `n_discs` discs is subtracted, along x and along y.
 std::array<bool, 2> is_centred(const SceneParameters& scene, double n_discs);
 
 /// Mean squares of displacements along x and y, and the mean scalar product of first and present

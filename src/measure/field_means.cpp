@@ -18,7 +18,7 @@ struct Moments {
 
 const double* samples_of(BlockNumbers cell) { return cell.data() + 1 + n_field_moments; }
 
-/// kT as a tensor, from velocities relative to the mean velocity of the cell in each sample.
+/// The tensor of kT, from velocities relative to the mean velocity of the cell in each sample.
 Moments thermal_of(BlockNumbers cell) {
     const double* const sampled = samples_of(cell);
     const double n = sampled[sample_in_pair]; // 0 / 0 is NaN
@@ -26,7 +26,7 @@ Moments thermal_of(BlockNumbers cell) {
 }
 
 /// One component of the sum of m c^2 c / 2, for velocities c relative to the mean (vx, vy).
-/// `energy` is this component of the same sum for velocities relative to the box, `v` is this
+/// `energy` is the same component of this sum for velocities relative to the box, `v` is the same
 /// component of the mean, and (along_x, along_y) is the row of the momentum flux for this axis.
 double heat_about(double energy, double v, double along_x, double along_y, double flux, double mass,
                   double vx, double vy) {
@@ -71,7 +71,8 @@ double common_temperature(std::span<const double> cells) {
 
 namespace {
 
-/// Kinetic stress and heat flow relative to the block's mean velocity, summed over its samples.
+/// Kinetic stress and heat flow relative to the block's mean velocity, summed over the samples of
+/// the block.
 struct Kinetic {
     Moments stress;
     double heat_x, heat_y;

@@ -2,18 +2,18 @@
 // Fields of a cell over a block of samples, relative to the cell's mean velocity in the block.
 //
 // The mean velocity V of a block comes from the same discs, so it contains part of their thermal
-// motion: kT comes out too low by D kT / n, where n counts discs over all samples and D counts
-// degrees of freedom. Consecutive samples contain the same discs, so D may have any value from 1 to
-// the number s of samples. D follows from the scatter of the cell's velocities V_k at the samples:
+// motion. So kT from velocities relative to V is too low by D kT / n, where n is the number of
+// discs, summed over all s samples, and D a number of degrees of freedom. D is 1 if samples are
+// independent, and s if all samples are equal. It usually lies between, as successive samples
+// contain the same discs. D follows from the scatter of the cell's velocities V_k at the samples:
 //
 //   sum_k sum_i m (v - V)^2  =  sum_k sum_i m (v - V_k)^2  +  sum_k M_k (V_k - V)^2
 //      mean (n - D) kT                mean (n - s) kT               mean (s - D) kT
 //
-// The middle sum does not depend on D, so it gives kT, and the missing part is D kT. The n_k discs
-// of a sample have the weight n_k / (n_k - 1). With equal weights, samples of a cell after fast
-// discs have left it would count too much, because they contain fewer discs. In a flow that changes
-// within the block the last sum is larger than thermal motion can make it. In this case the sum is
-// part of the fields relative to V, and the correction uses D = 1.
+// The middle sum does not depend on D, so it gives kT, and the missing part is D kT. The terms of a
+// sample with n_k discs are multiplied by n_k / (n_k - 1), so that each disc has the same weight in
+// kT. If the flow changes within the block, the last sum is larger than thermal motion can make it.
+// In this case the fields include the last sum, and the correction uses D = 1.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@
 namespace carrom {
 
 /// Sums over the samples of a block, the same on all ranks. Fluxes and heat flows are relative to
-/// V_k, the cell's velocity in sample k. Weights correct for each disc's own share of V_k.
+/// V_k, the cell's velocity in sample k. Weights correct for the share that each disc has in V_k.
 enum SampleMoment : std::uint8_t {
     sample_count,   ///< number of samples with a disc in the cell
     sample_drift,   ///< sum of M_k V_k^2, where M_k is the mass in the cell in sample k
@@ -40,8 +40,8 @@ enum SampleMoment : std::uint8_t {
     n_sample_moments
 };
 
-/// Number of values that tables store for a cell and a block: the number of discs, summed over the
-/// samples, then the field moments (FieldMoment), then the sample moments.
+/// Number of values that are stored for each cell and block: first the number of discs, summed over
+/// the samples, then the field moments (FieldMoment), then the sample moments.
 inline constexpr std::size_t n_block_numbers = 1 + n_field_moments + n_sample_moments;
 using BlockNumbers = std::span<const double, n_block_numbers>;
 using SampleSums = std::span<double, n_sample_moments>;
@@ -49,12 +49,13 @@ using SampleSums = std::span<double, n_sample_moments>;
 /// Adds one sample of a cell, with the discs of all ranks, to `sums`.
 void add_sample(const FieldSums& sample, std::size_t cell, SampleSums sums);
 
-/// Mean kT of a table's cells in a block, weighted by discs; `cells` has BlockNumbers of each cell.
+/// Mean kT of all cells in a block, weighted by their numbers of discs. `cells` has the
+/// BlockNumbers of each cell.
 double common_temperature(std::span<const double> cells);
 
 /// The columns of "profiles" from `count` on; `common` is common_temperature(). kT and the kinetic
-/// stress are NaN if no sample has two discs in the cell. The kinetic heat flow is NaN if no sample
-/// has three, unless the flow changes within the block.
+/// stress are NaN if no sample has two or more discs in the cell. The kinetic heat flow is NaN if
+/// no sample has three or more, unless the flow changes within the block.
 std::vector<double> fields_of(BlockNumbers cell, double common, double n_samples, double steps,
                               double area);
 

@@ -8,8 +8,8 @@ namespace carrom {
 
 namespace {
 
-/// A typical term of a disc is some 2^50 units, and a sum may reach 2^75 such terms. A typical term
-/// of a collision is some 2^47 units, so that the largest in a million is below 2^51.
+/// A typical term of a disc is some 2^50 units, and a sum can hold 2^75 such terms. A typical term
+/// of a collision is some 2^47 units, so that the largest of a million terms is below 2^51 units.
 constexpr double headroom = 0x1p75, headroom_of_contacts = 0x1p78;
 constexpr std::size_t words_per_cell = 1 + 4 * n_field_moments;
 
@@ -76,7 +76,8 @@ ExactSum FieldSums::sum_at(std::size_t cell, std::size_t moment) const {
 
 namespace {
 
-/// Each sum is stored as four words of 32 bits, so that carries do not overlap.
+/// Appends the sum as four words with 32 bits each. Words of several ranks can then be added
+/// without overflow.
 void append_words(const ExactSum& sum, std::vector<std::uint64_t>& words) {
     for (const std::uint64_t word : {sum.low_word(), sum.high_word()}) {
         words.push_back(word & 0xffffffff);

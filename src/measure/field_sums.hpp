@@ -22,8 +22,8 @@
 namespace carrom {
 
 /// The sums of each cell: eight over discs, then five over collisions. Impulse times distance,
-/// divided by time and area, is the collisional part of the pressure tensor. Energy times distance,
-/// divided in the same way, is the collisional flow of energy.
+/// divided by time and area, is the collisional part of the pressure tensor. Transferred energy
+/// times distance, divided by time and area, is the collisional flow of energy.
 enum FieldMoment : std::uint8_t {
     field_mass,
     field_momentum_x,
@@ -52,13 +52,14 @@ using Pair [[gnu::vector_size(16)]] = double;
 using PairOfWords [[gnu::vector_size(16)]] = std::uint64_t;
 using PairOfCells [[gnu::vector_size(8)]] = std::int32_t;
 
-/// Terms of a collision: stress xx and yy; stress xy in both elements; energy flow along x and y.
+/// Terms of a collision: `normal` is stress xx and yy, both elements of `shear` are stress xy, and
+/// `flow` is the flow of energy along x and y.
 struct ContactTerms {
     Pair normal, shear, flow;
 };
 
-/// Inverse widths of cells, and the offset from scaled positions to columns and rows. The first
-/// cell is column 1 and row 1, so positions are positive and rounding towards 0 finds the cell.
+/// Converts a position r to columns and rows: r * `per_length` + `origin`. The first cell has
+/// column 1 and row 1, so that the result is positive and rounding towards 0 finds the cell.
 struct PlacedGrid {
     PlacedGrid(std::size_t n_x, std::size_t n_y, const Extent& box)
         : per_length{static_cast<double>(n_x) / (box.x_high - box.x_low),
@@ -68,7 +69,7 @@ struct PlacedGrid {
     Pair per_length, origin;
 };
 
-/// Column and row of a scaled position, which must lie within 2^31 cells of the origin.
+/// Column and row of a position in widths of cells, which must have absolute values below 2^31.
 inline PairOfCells cell_at(Pair place) { return __builtin_convertvector(place, PairOfCells); }
 inline bool are_same(PairOfCells a, PairOfCells b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -76,7 +77,8 @@ inline bool are_same(PairOfCells a, PairOfCells b) {
 
 class FieldSums {
 public:
-    /// `speed` and `length`: typical values, the same on all ranks, which define the sums' units.
+    /// `speed` and `length` are typical values, which define the units of the sums. They must be
+    /// the same on all ranks.
     FieldSums(std::size_t n_cells, double speed, double length);
 
     std::size_t size() const { return counts_.size(); }
@@ -125,18 +127,18 @@ public:
             sums_[n_field_moments * cell + field_stress_xx + k].add_units(units[k]);
     }
 
-    /// Adds the sums over discs of another object with as many cells. Does not change the sums over
-    /// collisions.
+    /// Adds the sums over discs of `other`, which has the same number of cells. Does not change the
+    /// sums over collisions.
     void add_discs(const FieldSums& other);
     void clear_discs();
     /// Replaces the sums over discs by the sums of all ranks. **Collective.**
     void join_discs(const Communicator& ranks);
 
-    /// The counts and sums of all ranks, as words. **Collective.**
+    /// The counts and sums over all ranks, as words. **Collective.**
     std::vector<std::uint64_t> joined_words(const Communicator& ranks) const;
     /// Adds sums that `joined_words` has returned. Returns false if the number of words is wrong.
     bool add_words(const std::vector<std::uint64_t>& words);
-    /// Adds to each cell one cell of `other`, beginning with the cell `first` of `other`.
+    /// Adds to each cell k the sums of cell `first` + k of `other`.
     void add(const FieldSums& other, std::size_t first);
 
     std::uint64_t count(std::size_t cell) const { return counts_[cell]; }
@@ -149,24 +151,24 @@ public:
     FieldSums total() const { return over_species(size()); }
 
 private:
-    /// Typical terms have 50 bits. At 8 times the typical speed and a mass of 4 the largest term is
-    /// 2^10 times as large.
+    /// Typical terms have 50 bits. The largest term of a disc with 8 times the typical speed and a
+    /// mass of 4 is 2^10 times as large.
     static constexpr double usual_mass = 4, usual_speeds = 8;
 
     static Pair turned(Pair pair) { return Pair{pair[1], pair[0]}; }
-    /// The sum of both numbers, in both elements of the result.
+    /// Both elements of the result are the sum of both elements of `pair`.
     static Pair sum_of(Pair pair) { return pair + turned(pair); }
 
-    /// A double of this size has no fraction. So its sum with a smaller number has that number,
-    /// rounded to a whole one, in its low bits. This takes a third of the work of a conversion.
+    /// Doubles of this size are integers. If a smaller number is added, the low bits of the sum are
+    /// that number, rounded to an integer. This takes a third of the time of a conversion.
     static constexpr double rounder = 0x1.8p52;
     static constexpr std::uint64_t bits_of_rounder = std::bit_cast<std::uint64_t>(rounder);
-    /// Both numbers, rounded to whole numbers; `bits_of_rounder` is added to each.
+    /// Both elements of `units`, rounded to integers and with `bits_of_rounder` added.
     static PairOfWords rounded(Pair units) { return std::bit_cast<PairOfWords>(units + rounder); }
 
-    /// Terms of collisions, summed in 64 bits first, because sums in 128 bits take twice the work.
-    /// The sum of `most_terms` terms below `most_gathered` is below 2^62. Each term includes
-    /// `bits_of_rounder`.
+    /// Sums of some terms of collisions in 64 bits. They are added to the sums in 128 bits later,
+    /// because one addition in 128 bits takes twice the time. The sum of `most_terms` terms below
+    /// `most_gathered` is at most 2^62. Each term includes `bits_of_rounder`.
     struct Gathered {
         PairOfWords normal{}, shear{}, flow{}; ///< both words of `shear` are equal
         std::uint64_t n = 0;
@@ -179,19 +181,20 @@ private:
 
     double speed_, length_;
     std::array<double, n_disc_moments> scales_{}; ///< scales of the sums over discs
-    /// Scales of the sums over collisions, with the factors of -1 and 1/2 that their terms have.
+    /// Scales of the sums over collisions, multiplied by the factors -1 and 1/2 of their terms.
     Pair normal_scales_{}, shear_scales_{}, flow_scales_{};
     double usual_square_ = 0; ///< if v^2 < this and mass < `usual_mass`, terms have up to 62 bits
     std::vector<std::uint64_t> counts_;
     std::vector<ExactSum> sums_;     ///< the sums without the terms in `gathered_`
-    std::vector<Gathered> gathered_; ///< gathered terms of each cell
+    std::vector<Gathered> gathered_; ///< the latest terms of collisions in each cell
 };
 
-/// Calls `act(column, row, from, to)` for each part of the line from (u, v) to (u + du, v + dv), in
-/// widths of cells. `from` and `to` are fractions of the line's length, in ascending order; columns
-/// and rows may lie outside the grid.
+/// Cuts the line from (u, v) to (u + du, v + dv), in widths of cells, at the edges of cells and
+/// calls `act(column, row, from, to)` for each part. The part begins and ends at the fractions
+/// `from` and `to` of the line's length, in ascending order; columns and rows may lie outside the
+/// grid.
 template <class Act> void for_each_part_of_line(double u, double v, double du, double dv, Act act) {
-    // Rounds down without std::floor, which would be a function call
+    // Rounds down without std::floor, which would be a function call.
     const auto cell = [](double place) {
         const auto whole = static_cast<std::int64_t>(place);
         return static_cast<double>(whole) > place ? whole - 1 : whole;

@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// Counts the box lengths by which syncs move discs back into the box, because they are part of
-/// displacements.
+/// Starts to count the box lengths by which syncs move discs back into the box, because these
+/// lengths are part of displacements.
 void Flights::follow() {
     if (follows_lengths()) lengths_.emplace(run_.system, run_.ranks);
 }
@@ -45,7 +45,8 @@ double Flights::fastest_of(std::span<const DiscState> discs) const {
     return run_.ranks.max(fastest);
 }
 
-/// Mean squares of displacements along x and y, and the mean scalar product of v(start) and v(now).
+/// Mean squares of displacements along x and y, and the mean of the scalar product of the
+/// velocities at the start and now.
 std::array<double, 3> Flights::means(std::span<const DiscState> discs, std::uint64_t n_discs) {
     const double time = run_.system.clock(), unit = run_.system.velocity_unit();
     const std::span<const DiscImage> lengths = lengths_ ? lengths_->counts()

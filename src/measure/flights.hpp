@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Displacements of discs since a first sample, continued through periodic sides, and the
-// correlation with their first velocities. A disc's id determines the rank that stores its first
-// position (pieces.hpp). Price: 16 bytes a disc, 32 with velocities, and in periodic boxes 16 more;
-// at a sample each disc is sent once.
+// Displacements of discs since a first sample, continued through periodic sides, and the mean
+// product of present and first velocities. A disc's id determines the rank that stores its first
+// position (pieces.hpp). Memory: 16 bytes a disc, or 32 with velocities, and 16 more in periodic
+// boxes. Each sample sends each disc once.
 #pragma once
 
 #include <array>
@@ -22,7 +22,8 @@ public:
 
     /// Starts to count crossings of periodic sides. Call it before `begin`. **Collective.**
     void follow();
-    /// This rank's discs; a disc that crossed a periodic side since the last sync is outside of it.
+    /// This rank's discs. Discs that have crossed a periodic side since the last sync have
+    /// positions outside the box.
     std::span<const DiscState> flown(std::span<const DiscState> shown);
     /// Starts all displacements at the present positions. **Collective.**
     void begin(std::span<const DiscState> flown);
@@ -42,9 +43,9 @@ private:
     bool have_velocities_;
     std::uint64_t first_id_ = 0;
     std::vector<std::array<double, 2>>
-        first_places_; ///< first positions, by id, of the discs that this rank keeps
+        first_places_; ///< first positions of this rank's range of ids, in order of id
     std::vector<std::array<double, 2>> first_velocities_;
-    /// In a periodic box: the box lengths that discs have crossed since `begin`
+    /// Numbers of box lengths that discs have crossed since `begin`; unset without periodic sides
     std::optional<ImageCounts> lengths_;
     DiscStates flown_;
 };

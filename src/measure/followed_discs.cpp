@@ -85,7 +85,8 @@ void FollowedDiscs::keep(KeptNumbers& kept) {
     lengths_->go_on(places, &FirstPlace::lengths_x, &FirstPlace::lengths_y);
 }
 
-/// Each rank passes the words of its own ids and zeros for other ids, so the sum has all words.
+/// Each rank has the words of its own ids and zeros for all other ids, so the sum over ranks has
+/// the words of all ids.
 void FollowedDiscs::keep(KeptNumbers& kept, std::vector<double>& of_discs) const {
     std::vector<std::uint64_t> words;
     if (!kept.is_restored()) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each disc's position and velocity by id, continued through periodic sides,
-// and along periodic axes relative to the centre of mass. Measurements use
-// these to compare discs with their own states at other times.
+// The positions and velocities of discs in order of id, continued through periodic sides. Along
+// axes where nothing stops the common motion, they are relative to the centre of mass
+// (centred_flights.hpp). Measurements use them to compare discs with their own earlier states.
 //
-// Each rank stores a range of ids (pieces.hpp). Price of a sample: each disc is sent once.
+// Each rank stores a range of ids (pieces.hpp). Each sample sends each disc once.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@
 
 namespace carrom {
 
-/// Positions, and velocities per step, by id. Each component is an array, so that loops over discs
-/// are vectorised.
+/// Positions, and velocities in lengths per step, in order of id. Each component is an array, so
+/// that loops over discs are vectorised.
 struct FollowedStates {
     std::vector<double> x, y, vx, vy;
 
@@ -39,7 +39,7 @@ public:
     DiscId first_id() const { return first_id_; }
     std::uint64_t n_discs() const { return n_discs_; }
 
-    /// Stores or restores the box lengths that discs have crossed, so that a restart can continue
+    /// Stores or restores how many box lengths discs have crossed, so that a restart can continue
     /// to follow the discs. **Collective.**
     void keep(KeptNumbers& kept);
     /// Stores one number for each disc of all ranks, or restores
@@ -54,7 +54,7 @@ private:
     std::uint64_t n_discs_ = 0;
     DiscId first_id_ = 0;
     std::size_t n_own_ = 0;
-    double speed_ = 0; ///< typical speed, from which units of sums follow
+    double speed_ = 0; ///< typical speed, which defines the units of sums
     std::optional<ImageCounts> lengths_;
     FollowedStates states_;
 };

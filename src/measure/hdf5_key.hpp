@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The setting to write tables also to an HDF5 file. Quantities with large tables share it.
+// The setting that writes tables to an HDF5 file, too. Quantities with large tables share it.
 #pragma once
 
 #include "scene/quantity.hpp"

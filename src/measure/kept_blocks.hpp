@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors of measured curves. A sample of a curve is a vector, and its errors come from blocks of
-// samples (statistics/blocking.hpp).
+// Errors of measured curves. A sample of a curve is a vector, and the errors of its elements come
+// from blocks of samples (statistics/blocking.hpp).
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace carrom {
 
-/// Stores blocks after a measurement's other numbers, or restores them.
-/// Checkpoints of Carrom 0.2 have no blocks: the curve then stays
-/// without errors, because no block has the samples before the restart.
+/// Stores or restores blocks; call it after a measurement's other numbers. Checkpoints of Carrom
+/// 0.2 have no blocks. After a restart from such a checkpoint the curve has no errors, because the
+/// blocks lack the samples before the restart.
 inline void keep_blocks(KeptNumbers& kept, VectorBlocks& blocks) {
     if (kept.is_restored() && kept.is_at_end()) return;
     std::vector<std::int64_t> words = blocks.words();
@@ -22,8 +22,8 @@ inline void keep_blocks(KeptNumbers& kept, VectorBlocks& blocks) {
     if (kept.is_restored() && !blocks.set_words(words)) kept.refuse();
 }
 
-/// One standard error of each value; NaN if there are too few samples, or if the blocks lack some
-/// of the samples.
+/// One standard error of each value of the curve; NaN if there are too few samples, or if the
+/// blocks do not contain all `n_samples` samples.
 inline std::vector<double> errors_of(const VectorBlocks& blocks, std::uint64_t n_samples) {
     std::vector<double> errors(blocks.n_values(), std::numeric_limits<double>::quiet_NaN());
     if (blocks.n_samples() != static_cast<std::int64_t>(n_samples)) return errors;

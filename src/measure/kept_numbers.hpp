@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The data of a measurement in a checkpoint: words of 64 bits. One function of the measurement
-// visits its numbers, both to store and to restore them, so that the order is the same.
+// The data of a measurement in a checkpoint: words of 64 bits. One function of the measurement both
+// stores and restores its numbers, so that the order is the same.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@ namespace carrom {
 
 class KeptNumbers {
 public:
-    /// Makes an empty list, for storing.
+    /// Starts an empty list, to which numbers are then stored.
     KeptNumbers() = default;
-    /// Reads stored words, for restoring. They must outlive this.
+    /// Restores numbers from stored words, which must outlive this object.
     explicit KeptNumbers(std::span<const std::int64_t> words)
         : is_restored_(true), stored_(words) {}
 
     bool is_restored() const { return is_restored_; }
 
-    /// Stores a number, a vector or an array of numbers, or a text; or restores it.
+    /// Stores or restores a number, a vector or an array of numbers, or a string.
     template <class T> void operator()(T& value) {
         if constexpr (requires { value.resize(1); }) {
             std::int64_t size = static_cast<std::int64_t>(value.size());
@@ -47,8 +47,9 @@ public:
             value = static_cast<T>(bits);
         }
     }
-    /// Stores or restores a part that begins with its length; `keep` visits its numbers. The
-    /// numbers go into the same list, because a copy of each part would double the memory.
+    /// Stores or restores a part of the list, which begins with its length; `keep` stores or
+    /// restores the numbers of the part. A part is not a list of its own, because copying it would
+    /// double the memory.
     template <class Keep> void part(const Keep& keep) {
         std::int64_t size = 0;
         const std::size_t begin = words_.size() + 1;
@@ -72,7 +73,7 @@ public:
         if (found != value) is_other_ = true;
     }
 
-    /// False if stored words are missing or belong to other settings.
+    /// False if stored words are missing, are invalid or belong to other settings.
     bool is_right() const { return !is_other_; }
     bool is_at_end() const { return next_ == stored_.size(); }
     void refuse() { is_other_ = true; }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The interface of a measurement. A quantity is one file in src/measure/quantities: its declaration
-// for scenes and the documentation (scene/quantity.hpp), and the class that samples it.
+// The interface of a measurement. Each quantity is one file in src/measure/quantities. The file has
+// its declaration for scenes and documentation (scene/quantity.hpp), and the class that samples it.
 //
-// Sums over discs and collisions are counts, or are in fixed point (exact_sum.hpp), or are
-// added in a fixed order. So tables have the same bits on every number of ranks and threads,
-// and after a restart. To add a quantity: copy the file of the most similar quantity, rename
+// Sums over discs and collisions are integers, or are in fixed point (exact_sum.hpp), or are added
+// in a fixed order. So tables have the same bits on any number of ranks and threads, with or
+// without a restart. To add a quantity: copy the file of the most similar quantity, rename
 // the quantity in the copy, and add the name of the new file to the list in
 // src/measure/CMakeLists.txt.
 #pragma once
@@ -30,7 +30,7 @@
 
 namespace carrom {
 
-/// Counts of the samples so far, the same on every rank.
+/// The samples so far: their steps and number, and sums over them. All are the same on every rank.
 struct SampleCounts {
     std::int64_t first_step = 0, last_step = -1;
     std::uint64_t n_samples = 0;
@@ -46,7 +46,7 @@ struct MeasuredRun {
     const Communicator& ranks;
     SampleCounts counts = {};
 
-    /// The step of a sample; the first sample has the number 0.
+    /// The step of the sample with this number; the first sample has the number 0.
     double step_of(std::size_t sample) const {
         return static_cast<double>(counts.first_step +
                                    static_cast<std::int64_t>(sample) * output.every_steps);
@@ -63,12 +63,12 @@ struct SampledState {
     std::span<const DiscState> inside; ///< the discs of `shown` that are in the box
     std::uint64_t n_discs = 0;         ///< number of discs in `shown` on all ranks
     Extent box;
-    bool is_first = false; ///< the first sample, before which there is no interval
+    bool is_first = false; ///< whether it is the first sample, before which there is no interval
     /// Whether effects have acted at this step after the last interval ended.
     bool follows_effects = false;
 };
 
-/// A further column of the table "thermo": a number for each sample.
+/// A column that a quantity adds to the table "thermo", with a number for each sample.
 struct ThermoColumn {
     std::string name, remark;
     std::function<double(std::size_t)> at_sample;
@@ -82,33 +82,35 @@ public:
     Measurement(const Measurement&) = delete;
     Measurement& operator=(const Measurement&) = delete;
 
-    /// Called before the first sample, at its step, but not at a restart that restores sums.
+    /// Called once, before the first sample and at its step. It is not called at a restart that
+    /// restores sums.
     virtual void begin() {}
-    /// Ends the interval since the last sample; called once before each sample but the first. If
-    /// effects change the energy at a sync, it is called before they act, so that the interval has
-    /// only values from before the change.
+    /// Ends the interval since the last sample. It is called once before each sample except the
+    /// first. If effects change the energy at a sync, it is called before they act, so that the
+    /// change is not part of the interval.
     virtual void end_interval() {}
     virtual void sample(const SampledState& state) = 0;
     /// Whether samples use velocities. If effects change the energy at syncs, such samples are
     /// taken alternately before and after the effects, so that their mean is the mean over time.
     virtual bool has_velocities() const { return false; }
-    /// Whether a sample reorders discs in memory. It is then taken after all others.
+    /// Whether `sample` changes the order of discs in memory. It is then called after all others.
     virtual bool moves_discs() const { return false; }
 
-    /// Visits all numbers that a checkpoint stores. At a restart the same function restores them.
+    /// Passes all numbers of a checkpoint to `kept`, which stores them or, at a restart, restores
+    /// them.
     virtual void keep(KeptNumbers& kept) = 0;
-    /// Stores numbers of each disc; most measurements have none.
+    /// Adds numbers of each disc to a checkpoint's data; most measurements have none.
     virtual void store_discs(StoredSamples& /*stored*/) {}
     virtual void restore_discs(const StoredSamples& /*stored*/) {}
 
     /// Tables of the samples so far; there must be at least one sample. All ranks get equal tables.
     virtual std::vector<MeasuredTable> tables() const = 0;
-    /// A table that grows by a row at each sample, from row `first` on. Its file grows as the run
-    /// goes on, so the bytes of earlier rows never change.
+    /// The rows from number `first` on of a table that gets a row at each sample. They are appended
+    /// to its file during the run, so earlier rows must never change.
     virtual std::optional<MeasuredTable> rows_from(std::size_t /*first*/) const {
         return std::nullopt;
     }
-    /// One line if the samples contradict an assumption of the tables; else empty.
+    /// A warning of one line if samples contradict an assumption of the tables; otherwise empty.
     virtual std::string doubt() const { return {}; }
     virtual std::optional<ThermoColumn> thermo_column() const { return std::nullopt; }
 
@@ -122,7 +124,7 @@ using Measurements = std::vector<std::unique_ptr<Measurement>>;
 struct MeasuredQuantity {
     Quantity declared;
     std::unique_ptr<Measurement> (*make)(MeasuredRun&, const Measurements& others);
-    /// Names of further tables of the quantity; "profiles_1" belongs to "profiles".
+    /// Names of further tables of the quantity, without a number at the end as in "profiles_1"
     std::vector<std::string_view> other_tables = {};
 };
 
@@ -137,10 +139,11 @@ std::unique_ptr<Measurement> make_measurement(MeasuredRun& run, const Measuremen
 /// All quantities, in the order of the list in CMakeLists.txt.
 const std::vector<MeasuredQuantity>& measured_quantities();
 
-/// Adds the arrays `mine` of all ranks to `sums`. Several tables use it. **Collective.**
+/// Adds the arrays `mine` of all ranks, element by element, to `sums`. **Collective.**
 void add_over(const Communicator& ranks, std::vector<std::uint64_t>&& mine,
               std::vector<std::uint64_t>& sums);
-/// Counts a position in bins of width 1. Positions beyond the bins are not counted.
+/// Adds 1 to the bin that contains `place`, a position in widths of bins. Positions outside all
+/// bins are not counted.
 void count(std::vector<std::uint64_t>& counts, double place);
 
 } // namespace carrom

@@ -6,7 +6,7 @@ namespace carrom {
 
 namespace {
 
-/// Makes the simulation sum stress in the same unit as a checkpoint's sums.
+/// Restarts the simulation's sums of stress with the unit of a checkpoint's sums.
 DiscSystem& in_unit(DiscSystem& system, double bound) {
     system.begin_stress_sums(bound);
     return system;
@@ -23,7 +23,7 @@ MotionInterval::MotionInterval(DiscSystem& system, const Communicator& ranks,
                                const Pending& pending, const MotionSample& last)
     : system_(&system), ranks_(&ranks), last_sums_(in_unit(system, pending.bound).stress_sums()),
       last_(last) {
-    // Only the root keeps the restored sums, because only the sum over all ranks matters
+    // The restored sums are sums over all ranks, so only one rank, the root, includes them.
     if (!ranks.is_root()) return;
     StressSums sums(pending.bound);
     std::size_t next = 0;
@@ -34,7 +34,7 @@ MotionInterval::MotionInterval(DiscSystem& system, const Communicator& ranks,
     last_sums_ -= sums;
 }
 
-/// The sums on this rank since the last sample.
+/// This rank's sums of stress since the last sample.
 StressSums MotionInterval::since_last() const {
     StressSums since = system_->stress_sums();
     since -= last_sums_;

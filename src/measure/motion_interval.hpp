@@ -2,8 +2,8 @@
 // The time integrals of stress and energy since the last sample. The averages of a run and the
 // measured pressures are computed from them.
 //
-// The integrals of an interval come from exact sums of that interval alone, so their rounding does
-// not grow with the length of the run. Price of a sample: two passes over the discs.
+// The integrals of an interval come from exact sums over that interval alone, so their rounding
+// errors do not grow with the length of the run. A sample costs two passes over the discs.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace carrom {
 
 class MotionInterval {
 public:
-    /// The sums of all ranks since the last sample; `bound` defines their unit.
+    /// The sums of stress over all ranks since the last sample; `bound` defines their unit.
     struct Pending {
         static constexpr std::size_t n_words = 8;
 
@@ -29,11 +29,12 @@ public:
 
     /// Starts the interval at the present step. **Collective.**
     MotionInterval(DiscSystem& system, const Communicator& ranks);
-    /// Continues an interval from a checkpoint's data, before any step. **Collective.**
+    /// Continues an interval from a checkpoint's data; call it before any step. **Collective.**
     MotionInterval(DiscSystem& system, const Communicator& ranks, const Pending& pending,
                    const MotionSample& last);
 
-    /// The last sample. Its integrals cover the flights that the sums of stress lacked then.
+    /// The last sample. Its integrals contain only the flights up to it that the sums of stress
+    /// did not contain at that time.
     const MotionSample& last() const { return last_; }
     /// A sample of the present step. Its integrals minus the integrals of `last` are the integrals
     /// over the interval. **Collective.**
@@ -49,7 +50,7 @@ private:
 
     DiscSystem* system_;
     const Communicator* ranks_;
-    StressSums last_sums_; ///< sums of this rank at the last sample
+    StressSums last_sums_; ///< this rank's sums of stress at the last sample
     MotionSample last_;
 };
 

@@ -2,10 +2,10 @@
 // Chooses the pairs of samples for a correlation over decades of time: the multiple-tau scheme of
 // Ramirez and others, J. Chem. Phys. 133, 154103 (2010), without its averages over time.
 //
-// Level l keeps every 2^l-th sample, the last `points` of them. The first level has lags of 1 to
-// `points` samples. Further levels have lags of 2^l n samples, with n from points / 2 + 1 to
-// `points`. Each kept sample is an origin, so origins overlap. Lags can be as long as the run,
-// memory grows with the logarithm of its length, and a sample is compared with some 1.5 `points`
+// Level l stores every 2^l-th sample, and keeps the latest `points` of them. Level 0 has lags of 1
+// to `points` samples. Further levels have lags of 2^l n samples, with n from points / 2 + 1 to
+// `points`. Each stored sample is an origin, so origins overlap. Lags can be as long as the run,
+// memory grows with the logarithm of its length, and a sample is compared with 1.5 times `points`
 // earlier ones on average. Ramirez averages the samples that a level skips, which blurs lags. Here
 // these samples are left out, because displacements need exact lags.
 #pragma once
@@ -18,17 +18,17 @@
 
 namespace carrom {
 
-/// A setting that all quantities with correlations over decades of time share.
+/// The setting for `points`, which all quantities with correlations over decades of time share.
 inline constexpr QuantitySetting correlation_points{"correlation_points", 8};
 Key correlation_points_key();
 void check_correlation_points(const SceneDraft& draft);
-/// Warns that a run is too short for any lag. That is not an error, because a restart may continue
+/// Warns if a run is too short for any lag. That is not an error, because a restart may continue
 /// the run.
 void warn_without_lags(const SceneDraft& draft);
 
 class MultipleTau {
 public:
-    /// `points`: a power of two, at least 2.
+    /// `points` must be a power of two and at least 2.
     explicit MultipleTau(std::uint64_t points) : points_(points) {}
 
     std::uint64_t points() const { return points_; }
@@ -42,7 +42,7 @@ public:
         return level > 0 && n == (points_ / 2) << level;
     }
     std::size_t n_lags(std::uint64_t n) const { return points_ + (n_levels(n) - 1) * points_ / 2; }
-    /// The lag with this index, in samples.
+    /// The length of the lag with this index, in samples.
     std::uint64_t lag(std::size_t index) const {
         if (index < points_) return index + 1;
         const std::uint64_t half = points_ / 2, beyond = index - points_;

@@ -14,18 +14,18 @@ namespace carrom {
 
 namespace {
 
-/// About the largest number of samples in a run of the planned length. If a condition may end the
-/// run earlier, samples are as close as `radii_apart` allows.
+/// The approximate largest number of samples in a run of the planned length. If a condition may end
+/// the run earlier, samples are as frequent as `radii_apart` allows.
 constexpr std::int64_t wanted_samples = 32;
-/// In the mean interval between samples discs at a typical speed move by at least this many radii.
+/// In the mean time between samples a disc at a typical speed moves by at least this many radii.
 constexpr double radii_apart = 8;
-/// With more discs psi6 would hardly become more precise, and its samples would take more time than
-/// the rest of the run.
+/// The largest number of discs in a sample of psi6. With more discs psi6 would hardly be more
+/// precise, and its samples would take more time than the rest of the run.
 constexpr std::uint64_t most_discs = 4096;
 constexpr double longest_interval = 0x1p40;
 constexpr double golden_ratio = 0.6180339887498949;
 
-/// The measurements of a scene without quantities.
+/// An empty list of measured quantities, because `run_` needs one.
 const MeasurementOutput no_quantities;
 
 bool watches_order(const SceneParameters& scene) {
@@ -62,7 +62,8 @@ void OrderWatch::start() {
     has_begun_ = true;
 }
 
-/// Shifts samples by multiples of the golden ratio, so that they fall on all phases of any period.
+/// Shifts sample n by the fractional part of n times the golden ratio, in intervals between
+/// samples, so that samples fall on all phases of any period.
 std::int64_t OrderWatch::step_of_next() const {
     const double next = static_cast<double>(samples_.size() + 1);
     const double shift = next * golden_ratio - std::floor(next * golden_ratio);

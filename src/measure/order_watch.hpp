@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detects whether a run is still changing although its averages do not show it: psi6 of dense
-// discs, and the energy of discs that do not conserve it.
+// Detects whether a run is still changing although its averages do not show it. It samples psi6 of
+// dense discs, and the energy of discs that do not conserve it.
 //
 // A melting crystal has almost the pressure of the fluid, while its order falls by half. So psi6 is
-// sampled in every run that is denser than `least_watched_packing`, or that measures it anyway. In
-// the mean interval between samples discs at a typical speed move at least eight radii, and a run
-// of the planned length has at most some 32 samples. At `most_samples` every second sample is
-// dropped, and later samples are twice as far apart. Sample times are irregular, so that a periodic
-// drive cannot look like a trend.
+// sampled in every run that is denser than `least_watched_packing` or measures psi6 as a quantity.
+// In the mean time between samples a disc at a typical speed moves at least eight radii, and a run
+// of the planned length has at most some 32 samples. When there are `most_samples` samples, every
+// second one is dropped, and later samples are twice as far apart. Sample times are irregular, so
+// that a periodic drive cannot look like a trend.
 //
-// Price of a sample of psi6: a microsecond for each of at most 4096 discs, and an exchange of the
-// halo. That is the time of some five collisions of each disc. Memory: 24 bytes a sample.
+// A sample of psi6 costs a microsecond for each of at most 4096 discs, and an exchange of the halo.
+// Five collisions of each disc take about the same time. Memory: 24 bytes a sample.
 #pragma once
 
 #include <array>
@@ -39,16 +39,16 @@ class OrderWatch : public StepAction {
 public:
     static constexpr double least_watched_packing = 0.65;
     static constexpr std::size_t most_samples = 64;
-    /// Names of |mean psi6| and mean |psi6|, where the mean is over discs
+    /// Names of |mean psi6| and mean |psi6|; both means are over discs
     static constexpr std::array<const char*, 2> order_names = {"psi6", "local_psi6"};
 
-    /// All arguments must outlive this.
+    /// All arguments must outlive this object.
     OrderWatch(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks);
     OrderWatch(const OrderWatch&) = delete;
     OrderWatch& operator=(const OrderWatch&) = delete;
 
-    /// Starts at the present step if averages have begun by then, or continues from a checkpoint.
-    /// **Collective.**
+    /// Starts at the present step if the scene's averages begin at or before it, or continues from
+    /// the data of a checkpoint. **Collective.**
     void begin(std::span<const std::int64_t> stored = {});
     std::int64_t next_due(std::int64_t step) const override;
     bool act() override;

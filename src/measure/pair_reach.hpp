@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settings that tables of pairs share: the largest distance, for g(r) and g6(r), and the number of
-// bins, for most tables.
+// Settings that several tables share: the largest distance of pairs, for g(r) and g6(r), and the
+// number of bins, for most tables.
 #pragma once
 
 #include "measure/measurement.hpp"
@@ -16,12 +16,12 @@ inline std::size_t n_bins_of(const MeasuredRun& run) {
 }
 
 Key largest_distance_key();
-/// Sets the distance if the scene does not, and checks that it is at most half of the smallest edge
-/// that the region of discs' centres has during the run.
+/// Sets the largest distance if the scene does not. Checks that it is at most half the width and
+/// half the height, at any time of the run, of the region that discs' centres can reach.
 void check_largest_distance(const SceneDraft& draft);
-/// Stores or restores the largest distance. If the scene sets it, it must not change. The default
-/// changes at a restart with another last step, if walls move until then. The stored distance is
-/// then used if the box stays large enough for it; otherwise this throws InputError.
+/// Stores or restores the largest distance. If the scene sets it, it must not change. If walls
+/// move, the default depends on the last step, and a restart may have a different one. The stored
+/// distance is then used if the box stays large enough for it; otherwise this throws InputError.
 void keep_largest_distance(KeptNumbers& kept, const MeasuredRun& run, double& distance);
 
 } // namespace carrom

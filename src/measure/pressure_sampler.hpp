@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mean pressure tensor between two samples, from the time integral of stress since the last one
+// The mean pressure tensor between two samples, from the time integral of stress between them
 // (docs/understanding/pressure.md).
 #pragma once
 
@@ -22,9 +22,10 @@ public:
     PressureSampler(DiscSystem& system, const Communicator& ranks)
         : system_(&system), interval_(system, ranks) {}
 
-    /// Adds an interval of `steps` steps, and starts the next one. **Collective.**
+    /// Ends an interval of `steps` steps, appends its means to `pressures`, and starts the next
+    /// interval. **Collective.**
     void sample(double steps);
-    /// Starts the interval again at this step, with the velocities that effects have just changed.
+    /// Restarts the interval at this step, because effects have just changed velocities.
     /// **Collective.**
     void begin_interval() { interval_.begin(interval_.now()); }
     const std::vector<double>& pressures() const { return pressures_; }
@@ -34,13 +35,15 @@ public:
     double temperature() const; ///< temperature at the last sample
     // Means over the last interval:
     double mean_temperature() const { return pressures_[pressures_.size() - n_numbers + 3]; }
-    /// The mean kinetic energy; invalid between sheared sides, and after a restart until a sample.
+    /// The mean kinetic energy. It is not valid between sheared sides, nor after a restart before
+    /// the next sample.
     double mean_energy() const { return mean_energy_; }
-    /// Integral of stress times area over the last interval, times in steps; drift is not removed.
+    /// Time integral, in steps, of stress times area over the last interval. The drift of the
+    /// centre of mass is not subtracted.
     const Tensor& last_integral() const { return last_integral_; }
 
-    /// Stores the data of `sampler`, or makes a sampler from stored data before any step.
-    /// **Collective.**
+    /// Stores the data of `sampler`, or sets `sampler` to one with stored data; call it before any
+    /// step in this case. **Collective.**
     static void keep(KeptNumbers& kept, std::optional<PressureSampler>& sampler, DiscSystem& system,
                      const Communicator& ranks);
 

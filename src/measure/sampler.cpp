@@ -38,8 +38,8 @@ Sampler::~Sampler() {
     if (does_energy_jump(run_.scene.effects)) run_.system.engine().call_before_effects({});
 }
 
-/// Stores the settings on which sums depend, or compares them with stored ones. Different settings
-/// make stored sums useless. Each measurement also compares its own settings.
+/// Stores the settings on which sums depend, or compares them with stored ones. If they differ, the
+/// stored sums cannot be used. Each measurement also compares its own settings.
 void Sampler::keep_settings(KeptNumbers& kept) const {
     kept.same(format);
     kept.same(names_);
@@ -66,7 +66,7 @@ void Sampler::go_on_measuring(const StoredSamples& stored) {
     if (stored.sums.empty() || step <= run_.output.from_step) return;
     KeptNumbers kept(stored.sums);
     keep_settings(kept);
-    StoredSamples asked; // its flags show which numbers of each disc the quantities store
+    StoredSamples asked; // its flags show which numbers per disc these quantities store
     if (kept.is_right()) keep_counts(kept);
     for (const auto& measurement : measurements_) {
         if (!kept.is_right()) break;
@@ -103,8 +103,8 @@ void Sampler::sample_if_due() {
     if (run_.scene.measurements) measure_if_due();
 }
 
-/// At a sync the energy has two values, before and after
-/// effects. So the state before effects is sampled, too.
+/// Takes samples at a sync before effects act, because the energy then jumps: its values before and
+/// after the effects are different.
 void Sampler::sample_before_effects() {
     const std::int64_t step = run_.system.step();
     if (run_.system.micro_steps_done() % run_.scene.micro_steps != 0) return;
@@ -127,8 +127,9 @@ void Sampler::end_intervals() {
     for (const auto& measurement : measurements_) measurement->end_interval();
 }
 
-/// Whether the sample at this sync is taken before effects; times before and after alternate.
-/// The number of samples alone decides this, so that it is the same after a restart.
+/// Whether velocities at this sync are sampled before effects; such samples and samples after
+/// effects alternate. Only the number of samples determines this, so that it is the same after a
+/// restart.
 bool Sampler::is_turn_before_effects() const {
     const std::int64_t apart = run_.output.every_steps * run_.scene.micro_steps,
                        samples_between = run_.scene.sync_every /

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The measurements of a run: its averages, which are always on, and the quantities of
-// `[output.measurements]`, which are sampled at regular steps. A run without such quantities pays
-// nothing for them. The quantities are in quantities/, and docs/reference/measurements.md has the
-// price of each.
+// The measurements of a run: its averages, which every run has, and the quantities of
+// `[output.measurements]`, which are sampled at regular steps. A run that measures no quantities
+// spends no time on them. The quantities are in quantities/, and docs/reference/measurements.md has
+// the cost of each.
 #pragma once
 
 #include <cstddef>
@@ -24,17 +24,17 @@ namespace carrom {
 /// An action between steps that takes all samples that are due.
 class Sampler : public StepAction {
 public:
-    /// Samples from the scene's `from_step` on, or from the present step if that is later. All
-    /// arguments must outlive this. **Collective.**
+    /// Samples quantities from the scene's `from_step` on, or from the present step if that is
+    /// later. All arguments must outlive this object. **Collective.**
     Sampler(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks);
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
     ~Sampler() override;
 
-    /// Continues from a checkpoint's data; call it before anything is sampled. Sampling begins anew
-    /// if there are no data, or if `from_step` is not before the present step. Averages begin anew
-    /// also if the scene now averages over other steps. Throws InputError on every rank if the sums
-    /// of a quantity have other settings. **Collective.**
+    /// Continues from a checkpoint's data; call it before the first sample. Sampling begins anew if
+    /// there are no data, or if `from_step` is not before the present step. Averages also begin
+    /// anew if the scene's `averages_from` has changed. Throws InputError on every rank if the sums
+    /// of a quantity belong to other settings. **Collective.**
     void go_on(const StoredSamples& stored);
 
     /// The first step after `step` at which a sample is due.
@@ -57,7 +57,7 @@ public:
     std::vector<MeasuredTable> tables() const;
     /// A line for each quantity whose samples contradict an assumption of its tables.
     std::vector<std::string> doubts() const;
-    /// Tables that grow by a row at each sample, from row number `first` on; none if
+    /// The rows from number `first` on of all tables that get a row at each sample; no tables if
     /// there are no such rows.
     std::vector<MeasuredTable> rows_from(std::size_t first) const;
 
@@ -76,9 +76,10 @@ private:
     mutable MeasuredRun run_;
     mutable BlockAverages averages_; ///< mutable, because `keep` both stores and restores
     Measurements measurements_;      ///< the quantities
-    std::vector<std::string> names_; ///< names of the quantities, in their order
+    std::vector<std::string> names_; ///< names of the quantities, in the same order
     bool has_begun_ = false;
-    // Last steps at which averages, ends of intervals and samples were taken before effects acted:
+    // Last steps at which averages were sampled, intervals ended and quantities sampled before
+    // effects acted; -1 if there is no such step:
     std::int64_t averaged_before_ = -1, ended_before_ = -1, sampled_before_ = -1;
 };
 

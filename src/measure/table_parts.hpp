@@ -13,7 +13,7 @@ inline double edge(double low, double high, std::size_t k, std::size_t n) {
     return low + (high - low) * static_cast<double>(k) / static_cast<double>(n);
 }
 
-/// A probability density: counts divided by the number of all values and the width of the bins.
+/// A probability density: a bin's count, divided by the number of all values and the bin's width.
 inline double share(std::uint64_t count, std::uint64_t all, double width) {
     return static_cast<double>(count) / (static_cast<double>(all) * width);
 }

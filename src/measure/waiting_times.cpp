@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// A variance needs at least this many origins.
+/// F_s is compared only if there are at least this many late origins: their variance is needed.
 constexpr double fewest_late_origins = 8;
 constexpr std::size_t most_octaves = 64, most_lags = 1000;
 
@@ -41,7 +41,7 @@ void WaitingTimes::add(std::size_t lag, std::uint64_t origin, std::span<const Mo
     cell(static_cast<std::size_t>(std::bit_width(origin)), lag).add(numbers);
 }
 
-/// Stores or restores all means; octaves and lags without origins are left out.
+/// Stores or restores all means. Combinations of octave and lag without origins have no means.
 void WaitingTimes::keep(KeptNumbers& kept) {
     std::size_t n_octaves = octaves_.size();
     kept(n_octaves);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How the motion of discs over a lag depends on the waiting time, which is the time from the first
-// sample to the lag's origin. In equilibrium nothing depends on it. A glass ages: the longer it has
-// waited, the slower its discs.
+// sample to the lag's origin. In equilibrium nothing depends on it. A glass ages: discs
+// become slower as the waiting time grows.
 //
 // Origins are averaged over octaves of the waiting time, counted in samples: 0, 1, 2 to 3, 4 to 7,
-// and so on. The pairs of samples are those that multiple_tau.hpp compares anyway, so they cost no
-// more work. Memory: at most 3 kB for each octave, lag and species, and a run of a million samples
-// has some 650 pairs of an octave and a lag.
+// and so on. The pairs of samples are those that multiple_tau.hpp compares anyway, so no further
+// comparisons are needed. Memory: at most 3 kB for each octave, lag and species. A run of a million
+// samples has some 650 combinations of an octave and a lag.
 #pragma once
 
 #include <cstddef>
@@ -31,14 +31,15 @@ struct MovedDiscs {
 
 class WaitingTimes {
 public:
-    /// `n_kinds`: number of kinds of discs for which each origin has means.
+    /// `n_kinds` is the number of kinds of discs (species, and all discs) that have means of their
+    /// own.
     explicit WaitingTimes(std::size_t n_kinds = 1) : n_kinds_(n_kinds) {}
 
     /// Adds the values for the lag with the number `lag` and the origin at sample number `origin`.
     /// `moved` has one entry for each kind of discs: the means over that kind.
     void add(std::size_t lag, std::uint64_t origin, std::span<const MovedDiscs> moved);
     void keep(KeptNumbers& kept);
-    /// One row for each octave and lag, for one kind.
+    /// A table of the means of one kind, with a row for each octave and lag.
     MeasuredTable table(std::string name, std::size_t kind, const MultipleTau& scheme,
                         std::int64_t steps_per_sample) const;
     /// Compares the scattering function F_s of the earliest origins with F_s of late origins, which
@@ -49,13 +50,14 @@ public:
         double deviation = 0;        ///< difference divided by its error; 0 if the error is unknown
     };
     /// `length` is the lag in samples. The earliest origins lie within a quarter of a lag, so they
-    /// count as one origin. Late origins within two lags of each other also count as one, whose
-    /// variance is taken to be the variance of a single origin.
+    /// count as a single independent origin. Late origins count as one independent origin for every
+    /// two lags of time. The variance of an independent origin is taken to be the variance over all
+    /// late origins.
     Comparison compare(std::size_t lag, std::size_t kind, std::uint64_t length,
                        std::uint64_t n_samples) const;
 
 private:
-    /// Number of stored values: the members of MovedDiscs, and the square of `scattering`
+    /// Number of values for each kind: the members of MovedDiscs and the square of `scattering`
     static constexpr std::size_t n_numbers = 4;
     /// Sums over origins, for one kind of discs.
     struct Sums {
@@ -66,7 +68,7 @@ private:
     VectorBlocks& cell(std::size_t octave, std::size_t lag);
 
     std::size_t n_kinds_;
-    std::vector<std::vector<VectorBlocks>> octaves_; ///< means of each octave and lag
+    std::vector<std::vector<VectorBlocks>> octaves_; ///< means, by octave and then by lag
 };
 
 } // namespace carrom

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Functions that the quantities of walls share: sums over collisions with the four sides of the
-// box, tables of these sums over time, and rules for scenes. The sums are exact, so neither the
-// order of collisions nor the rank that carries them out affects them.
+// Functions for all quantities of walls: sums over collisions with the four sides of the box,
+// tables of these sums over time, and rules for scenes. The sums are exact, so they do not depend
+// on the order of collisions or on the ranks that carry them out.
 #pragma once
 
 #include <array>
@@ -20,7 +20,8 @@ namespace carrom {
 /// One sum for each side, in the order of `boundary_names`.
 class WallSums {
 public:
-    /// `largest_sum` bounds each side's absolute sum over all ranks, and is equal on all ranks.
+    /// `largest_sum` is an upper bound of each side's absolute sum over all ranks. It must be the
+    /// same on all ranks.
     explicit WallSums(double largest_sum)
         : sums_{ExactSum(largest_sum), ExactSum(largest_sum), ExactSum(largest_sum),
                 ExactSum(largest_sum)} {}
@@ -68,23 +69,23 @@ public:
     std::vector<MeasuredTable> tables() const override;
 
 protected:
-    /// Follows collisions from now on, beginning with empty sums.
+    /// Empties the sums and adds all later collisions with walls to them.
     void follow();
     /// Empties the sums since the last sample; their unit follows from `speed_scale_`.
     virtual void clear() = 0;
     virtual MeasuredTable history() const = 0;
     virtual MeasuredTable means_of(const MeasuredTable& history) const = 0;
 
-    double speed_scale_ = 0;    ///< typical speed, from which units of sums follow
+    double speed_scale_ = 0;    ///< typical speed, which defines the units of sums
     std::vector<double> given_; ///< momentum or energy exchanged at each side in each interval
 };
 
 /// The length of a side at a step; between vibrating walls its mean length.
 double length_of_side(const SceneParameters& scene, std::size_t side, double step);
 
-/// A row for each interval between samples: its first and last step, then for each side the given
-/// amount divided by the side's length and the time; NaN for a periodic side. `given` has
-/// `per_interval` numbers for each interval, in the order of sides.
+/// A row for each interval between samples: its first and last step, then its elements of `given`,
+/// divided by the length of their side and by the time; NaN for a periodic side. `given` has
+/// `per_interval` elements for each interval, and every four of them belong to the four sides.
 std::vector<std::vector<double>> rows_over_time(const MeasuredRun& run,
                                                 std::span<const double> given,
                                                 std::size_t per_interval);
@@ -96,7 +97,8 @@ struct MeanAndError {
 /// Means of all columns of `rows_over_time` except the two steps.
 std::vector<MeanAndError> means_over_time(const std::vector<std::vector<double>>& rows);
 
-/// Rules for a scene with such a quantity: no open side, and not periodic along both axes.
+/// Rules for a scene with a quantity of walls: no side may be open, and the box may not be periodic
+/// along both axes.
 template <bool (*is_measured)(const SceneParameters&)>
 std::vector<Rule> rules_of_walls(std::string_view quantity) {
     return {{.one = quantity,

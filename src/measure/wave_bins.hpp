@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The wave vectors of structure factors: all vectors of a periodic box up to a largest length, in
-// bins of length, and the setting and the rules for them.
+// The wave vectors of structure factors: one of each two opposite wave vectors of a periodic box,
+// up to a largest wavenumber, in bins of wavenumber. Also the setting and the rules for them.
 #pragma once
 
 #include <span>
@@ -16,9 +16,9 @@ inline constexpr QuantitySetting largest_wavenumber{"largest_wavenumber"};
 
 Key largest_wavenumber_key();
 /// Sets the largest wavenumber if the scene does not. Checks that there is at least one wave
-/// vector, and at most a million, because each is evaluated for each disc.
+/// vector, and at most a million, because a sample evaluates each vector for each disc.
 void check_wavenumber(const SceneDraft& draft);
-/// The rules that the box is periodic along both axes and that its sides are not sheared.
+/// The rules that the box must be periodic along both axes and that its sides must not be sheared.
 template <bool (*is_measured)(const SceneParameters&)>
 std::vector<Rule> rules_of_waves(std::string_view quantity) {
     return {
@@ -51,9 +51,10 @@ public:
 
     /// The number of vectors in each bin.
     std::vector<double> counts() const;
-    /// The mean of `numbers`, one for each vector, in each bin; NaN in an empty bin.
+    /// The mean over each bin of `numbers`, which has a number for each wave vector; NaN for an
+    /// empty bin.
     std::vector<double> means(std::span<const double> numbers) const;
-    /// Density modes of the `discs` of all ranks; each rank passes its own discs. **Collective.**
+    /// Density modes of all ranks' discs; each rank passes its own in `discs`. **Collective.**
     DensityModes modes(const MeasuredRun& run, std::span<const DiscState> discs) const;
 
 private:
@@ -65,7 +66,7 @@ private:
     std::vector<WaveVector> vectors_;
 };
 
-/// A measurement over wave vectors: sums over all samples, and blocks of samples for errors.
+/// A measurement at wave vectors, with sums over all samples and with blocks of samples for errors.
 class WaveMeasurement : public Measurement {
 public:
     void keep(KeptNumbers& kept) override;

@@ -12,7 +12,7 @@ namespace carrom {
 
 namespace {
 
-/// The numbers of a problem. Its texts follow each other in a separate string.
+/// The numbers of a problem. Its place and text are sent separately, in one array of characters.
 struct PackedProblem {
     std::int64_t line = 0;
     std::uint64_t place_length = 0;

@@ -2,7 +2,7 @@
 // Functions by which ranks learn that one of them has failed: either every rank throws, or none
 // does.
 //
-// They are for set-up, input and output, not for the step. Price without a failure: one reduction.
+// Use them for set-up, input and output, but not in steps. Cost without a failure: one reduction.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,10 @@
 
 namespace carrom {
 
-/// Throws CollectiveError on every rank, with text and code of the lowest rank that is not `ok`, if
-/// there is one. Other ranks may wait for the failed rank in an operation that it has left. If they
-/// do not arrive here within `patience_seconds`, the failed rank prints its text and aborts all
-/// ranks with its code. **Collective.**
+/// If any rank is not `ok`, throws CollectiveError on every rank, with the text and code of the
+/// lowest such rank. Other ranks may still be waiting for the failed rank in another operation. If
+/// they do not arrive here within `patience_seconds`, the failed rank prints its text and aborts
+/// all ranks with its code. **Collective.**
 void agree(const Communicator& communicator, bool ok, const std::string& text,
            ExitCode code = ExitCode::collective_failure, double patience_seconds = 30);
 
@@ -28,7 +28,8 @@ void agree(const Communicator& communicator, bool ok, const std::string& text,
 void agree_on_problems(const Communicator& communicator, const std::vector<Problem>& problems,
                        std::size_t most = 1000);
 
-/// Lets rank 0 work alone. If it throws InputError, every rank does. **Collective.**
+/// Calls `work` on rank 0 only. If it throws InputError, every rank throws InputError.
+/// **Collective.**
 void let_root(const Communicator& communicator, const std::function<void()>& work);
 
 } // namespace carrom

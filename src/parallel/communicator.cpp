@@ -51,7 +51,7 @@ Communicator::Handle::~Handle() {
 
 Communicator Communicator::world(std::size_t max_message) {
     MPI_Comm comm = duplicate_of(MPI_COMM_WORLD);
-    // Another part of the program may have chosen another error handler.
+    // Set again, because another part of the program may have changed the handler of the original.
     if (comm != MPI_COMM_NULL) abort_on_errors_of(comm);
     return Communicator(std::make_shared<Handle>(comm, max_message));
 }

@@ -5,8 +5,8 @@
 // Values are sent as bytes, so they must be trivially copyable; all ranks run the same program.
 // Data of any size is split into messages below MPI's limit of 2^31 bytes. Copies of a Communicator
 // share one MPI communicator. It is a duplicate, so its messages never mix with those of other
-// parts of the program. Every reduction gives all ranks the same bits for any number of ranks,
-// because sums of floating-point numbers are exact.
+// parts of the program. The result of a reduction has the same bits on all ranks and for any number
+// of ranks, because sums of floating-point numbers are exact.
 #pragma once
 
 #include <concepts>
@@ -41,9 +41,9 @@ public:
 
     /// All ranks of the run, or this process alone if MPI has not been started. **Collective.**
     /// Must not outlive `Mpi`. Data above `max_message` bytes (the same on all ranks) is split;
-    /// tests make it small.
+    /// tests make this limit small.
     static Communicator world(std::size_t max_message = largest_message);
-    /// A duplicate of the communicator that MPI knows by this Fortran number (MPI_Comm_c2f).
+    /// A duplicate of the communicator that has this number in Fortran (MPI_Comm_c2f).
     /// **Collective** over its ranks.
     static Communicator of_fortran(int number);
     /// This rank alone. Functions that are collective over it involve no other rank. Not
@@ -89,7 +89,8 @@ public:
         broadcast_bytes(std::as_writable_bytes(std::span(values)), root);
     }
 
-    /// Every rank's value, in rank order, on every rank. Memory grows with size(). **Collective.**
+    /// Every rank's value, in rank order, on every rank. The memory is proportional to size().
+    /// **Collective.**
     template <Message T> std::vector<T> all_gather(const T& value) const {
         std::vector<T> values(static_cast<std::size_t>(size()));
         all_gather_bytes(std::as_bytes(std::span(&value, 1)),

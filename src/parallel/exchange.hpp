@@ -3,8 +3,8 @@
 //
 // send_to_owners announces sizes with one MPI_Alltoall of 8 bytes per pair of ranks, then sends
 // only the messages that are not empty. The announcement takes longer with more ranks (some 30 us
-// for 1000). The NBX algorithm without it (Hoefler, Siebert, Lumsdaine 2010) needs a barrier, whose
-// latency is as long unless there are many thousands of ranks.
+// for 1000). The NBX algorithm (Hoefler, Siebert, Lumsdaine 2010) needs no announcement but a
+// barrier, which takes as long unless there are many thousands of ranks.
 #pragma once
 
 #include <algorithm>
@@ -20,15 +20,15 @@
 namespace carrom {
 
 namespace detail {
-/// Returns how many bytes each rank will send here, from the numbers of bytes that go to each rank.
-/// **Collective.**
+/// Returns the numbers of bytes that each rank will send to this rank. `bytes_to` are the numbers
+/// of bytes that this rank will send to each rank. **Collective.**
 std::vector<std::uint64_t> announce(const Communicator& communicator,
                                     std::span<const std::uint64_t> bytes_to);
 /// Sends and receives parcels of known sizes: parcel k of `out` goes to rank k, and parcel k of
 /// `in` comes from rank k.
 void move_parcels(const Communicator& communicator, std::span<const std::span<const std::byte>> out,
                   std::span<const std::span<std::byte>> in);
-/// Returns every rank's number on rank 0, and nothing on the others. **Collective.**
+/// Returns every rank's `value` on rank 0, and an empty list on other ranks. **Collective.**
 std::vector<std::uint64_t> gather_to_root(const Communicator& communicator, std::uint64_t value);
 /// Sends one piece of a stream. Waits until it is being received, so that pieces do not pile up.
 void send_piece(const Communicator& communicator, std::span<const std::byte> piece);

@@ -3,7 +3,7 @@
 // size.
 //
 // `start_send` splits data of any size and counts its messages. exchange.cpp,
-// neighbour_exchange.cpp and meeting.cpp also send single messages themselves.
+// neighbour_exchange.cpp and meeting.cpp also call MPI directly to send single messages.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ inline constexpr int last = 32767; ///< the largest tag that every MPI allows
 } // namespace tag
 
 struct Communicator::Handle {
-    /// MPI_COMM_NULL stands for this process alone, without MPI.
+    /// MPI_COMM_NULL means this process alone, without MPI.
     Handle(MPI_Comm duplicated, std::size_t limit);
     ~Handle();
     Handle(const Handle&) = delete;
@@ -48,8 +48,8 @@ struct Communicator::Handle {
 
 using Requests = std::vector<MPI_Request>;
 
-/// Starts sending `bytes` in messages of at most `max_message` bytes; sends none if it is empty.
-/// The bytes must stay unchanged until `wait_for` has returned.
+/// Starts sending `bytes` in messages of at most `max_message` bytes; sends no message if there are
+/// no bytes. The bytes must stay unchanged until `wait_for` has returned.
 void start_send(Communicator::Handle& handle, std::span<const std::byte> bytes, int to,
                 int message_tag, Requests& requests);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums and a largest value of all ranks in one message, because each reduction of a few bytes makes
-// all ranks wait for the slowest.
+// Computes several sums and one maximum over all ranks in a single reduction, because each
+// reduction makes all ranks wait for the slowest.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ template <class Counts> struct JointReduction {
     double largest = 0; ///< a number that is not NaN; -0 may become +0
 };
 
-/// The contents of a message; unused counts are 0.
+/// The data of a reduction; unused counts are 0.
 struct JointWords {
     std::array<std::uint64_t, 8> counts{};
     double largest = 0;

@@ -6,8 +6,8 @@
 
 namespace carrom {
 
-/// Whether a launcher has started this process. If a launcher is unknown here, each of its
-/// processes runs alone.
+/// Whether a launcher has started this process. If this function does not recognise a launcher,
+/// each of its processes runs alone.
 bool has_launcher();
 
 /// Whether this process is alone, or the first one that its launcher has started.

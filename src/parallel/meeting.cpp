@@ -16,10 +16,11 @@ namespace carrom {
 
 namespace {
 
-/// Delay between a departure and its report, because messages of the last meeting may be late.
+/// Time from the detection of a departure to the error message, because messages of the last
+/// meeting may be late.
 constexpr std::chrono::seconds grace(10);
-/// Time of a wait in which this rank only yields its core. Even the shortest sleep takes longer
-/// than a step of few discs.
+/// For this time a waiting rank only yields its core, because even the shortest sleep takes longer
+/// than a step with few discs.
 constexpr std::chrono::microseconds alert(200);
 constexpr std::size_t longest_reason = 2000;
 

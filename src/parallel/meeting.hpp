@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ranks meet before a call that all of them must make. So if a rank calls another function, or has
-// left, the result is a message instead of a hang. Price: one small reduction for each call.
+// Ranks meet before a call that all of them must make, and compare what they call. So if a rank
+// calls another function or has left, the result is an error message instead of a hang. Cost: one
+// small reduction for each call.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace carrom {
 
-/// A hash that shows whether ranks make the same call with different arguments.
+/// A hash of an argument. `meet` compares the hashes of all ranks, to detect different arguments.
 std::uint64_t hash_of_argument(std::string_view text);
 
 /// Returns when all ranks have reached the same call. Throws InputError on every rank if calls or
@@ -42,8 +43,9 @@ private:
     std::unique_ptr<Messages> messages_;
 };
 
-/// A communicator of the same ranks with separate messages. A rank that has called Departure::leave
-/// agrees with the others through it, because these may still use the original.
+/// A communicator with the same ranks, whose messages do not mix with those of the original. Ranks
+/// that have called Departure::leave use it to agree on the end of a run, because other ranks may
+/// still wait in calls that use the original.
 Communicator duplicate_of(const Communicator& communicator);
 
 } // namespace carrom

@@ -57,8 +57,8 @@ void on_failure(std::string_view text, const char* file, int line) {
     abort_all("internal error", std::string(text) + " (" + file + ':' + std::to_string(line) + ')');
 }
 
-/// Runs if a library calls `exit`. Libraries of OpenMP and MPI end a process with the codes 1 and
-/// 2, which in Carrom mean a difference and a wrong input.
+/// Runs at the exit of the process, to detect that a library has called `exit`. Libraries of OpenMP
+/// and MPI do so with the codes 1 and 2, which in Carrom mean a difference and a wrong input.
 void end_after_library() {
     if (exit_now == Exit::regular) return;
     // MPI has not been finalised: Carrom aborts, or a library has called `exit`
@@ -194,7 +194,7 @@ std::string mpi_version() {
     int length = 0;
     MPI_Get_library_version(text.data(), &length);
     std::string name(text.data(), static_cast<std::size_t>(length));
-    name.resize(std::min(name.find_first_of(",\n"), name.size())); // the rest are details
+    name.resize(std::min(name.find_first_of(",\n"), name.size())); // the rest is not needed
     std::replace(name.begin(), name.end(), '\t', ' ');
     return name;
 }
@@ -235,7 +235,7 @@ Mpi::Mpi(int& argc, char**& argv, Start start) {
 Mpi::Mpi() { start_mpi(nullptr, nullptr); }
 
 Mpi::~Mpi() {
-    // The program may have ended MPI
+    // Another part of the program may have ended MPI
     if (is_mpi_running && !has_mpi_ended()) MPI_Finalize();
     is_mpi_running = false;
     exit_now = Exit::regular;
@@ -244,7 +244,7 @@ Mpi::~Mpi() {
 int run_on_all(const Communicator& communicator,
                const std::function<int(const Communicator&)>& body, double patience_seconds) {
     const Outcome outcome = run(communicator, body);
-    // Rank 0 prints for all ranks. If it lacks the error, the rank with the error prints it.
+    // Rank 0 prints for all ranks. If it has no error, a rank with an error prints it later.
     if (communicator.is_root() && !outcome.text.empty()) {
         std::fflush(stdout);
         std::fprintf(stderr, "%s\n", printable(outcome.text, true).c_str());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Start and end of a parallel run, so that no failure on any rank leaves the others waiting
+// Starts and ends a parallel run such that no failure of a rank leaves the other ranks waiting
 // (docs/understanding/architecture.md).
 #pragma once
 
@@ -11,13 +11,15 @@
 
 namespace carrom {
 
-/// Until `Mpi` ends, all ranks end with code 3 and a message if a library calls `exit`, as OpenMP
-/// and MPI do if they have too little memory. A program calls it before it makes `Mpi`.
+/// After this call and until `Mpi` is destroyed, a call of `exit` by a library ends all ranks with
+/// code 3 and a message. OpenMP and MPI call `exit` if they have too little memory. A program must
+/// call guard_exit before it constructs `Mpi`.
 void guard_exit();
 
-/// Starts MPI and ends it. Only the thread that made it may call MPI; a library without
-/// MPI_THREAD_FUNNELED is an error. From then on an MPI error or a failed `ensure` prints rank and
-/// text and aborts all ranks; if memory runs out on any thread, the code is 3. A program makes one.
+/// The constructor starts MPI and the destructor ends it. Only the thread that has constructed it
+/// may call MPI; a library without MPI_THREAD_FUNNELED is an error. In between, an MPI error or a
+/// failed `ensure` prints rank and text and aborts all ranks; if a thread runs out of memory, all
+/// ranks abort with code 3. A program constructs one object.
 class Mpi {
 public:
     enum class Start {
@@ -39,7 +41,7 @@ bool has_mpi_started();
 bool has_mpi_ended();
 
 /// Uses an MPI that another part of the program has started. From now on a failed `ensure` aborts
-/// all ranks. Throws InputError if threads are not allowed (MPI_THREAD_FUNNELED).
+/// all ranks. Throws InputError if MPI was started without MPI_THREAD_FUNNELED.
 void join_mpi();
 
 /// The library's name and version, such as "Open MPI v4.1.4". MPI need not be started.
@@ -53,8 +55,8 @@ std::string mpi_version();
 /// InputError rank 0 prints each problem on a line of standard error; the code is 2. After a
 /// CollectiveError rank 0 prints it; the code is the error's. After any other exception the rank
 /// prints its number and the text, and aborts all ranks. All ranks return the largest code. If
-/// other ranks do not reach the same end within `patience_seconds`, a CollectiveError aborts them
-/// with its code, an InputError with 70. **Collective.**
+/// other ranks do not reach the same end within `patience_seconds` after an error, all ranks abort:
+/// after a CollectiveError with the code of the error, after an InputError with 70. **Collective.**
 int run_on_all(const Communicator& communicator,
                const std::function<int(const Communicator&)>& body, double patience_seconds = 30);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MPI's own handle, for libraries that need one (parallel HDF5). Nothing else includes this header.
+// MPI's own handle, for libraries that need one (parallel HDF5). Only code that calls such a
+// library includes this header.
 #pragma once
 
 #include <mpi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exchange with a few known ranks. It carries halos, migrating discs, and messages about
-// collisions of discs of neighbouring strips.
+// Exchanges data with a few known ranks: halos, migrating discs, and messages about collisions
+// between discs of neighbouring strips.
 //
 // Both sides know that they are neighbours, but the receiver does not know the amount of data. The
 // first few kilobytes are sent together with the size in one message, whose receive is posted in
@@ -21,8 +21,8 @@
 
 namespace carrom {
 
-/// Keeps its buffers from one exchange to the next, and has a tag of its own, because a rank may be
-/// in the next exchange already while its neighbour is still in this one.
+/// An object keeps its buffers from one exchange to the next. It has its own message tag, because a
+/// rank may already use another object while its neighbour still uses this one.
 class NeighbourExchange {
 public:
     /// Sends nothing, but all ranks must construct their exchanges in the same order.
@@ -32,9 +32,9 @@ public:
     NeighbourExchange& operator=(NeighbourExchange&&) noexcept;
 
     /// Sends out[k] to neighbours[k], and replaces `in` by the items that they send, grouped in the
-    /// order of `neighbours`. This is a list of ranks, each once, in any order; it may be empty and
-    /// may change from call to call. Items from a rank to itself are copied, without a message. If
-    /// rank a lists b, b must list a in the same call. **Collective**: ranks without neighbours
+    /// order of `neighbours`. `neighbours` lists ranks, each once, in any order; it may be empty
+    /// and may change from call to call. Items from a rank to itself are copied, without a message.
+    /// If rank a lists b, b must list a in the same call. **Collective**: ranks without neighbours
     /// take part, too, at no cost.
     template <Message T>
     void exchange(std::span<const int> neighbours, const std::vector<std::vector<T>>& out,

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sorts records with ids 0 .. n-1, which are in any order on any ranks, by id, piece by piece.
+// Sorts records by id, piece by piece. The ids are 0 .. n-1; the records can be on any ranks, in
+// any order.
 //
 // The ids are cut into pieces whose length is a power of two, and each rank owns a run of whole
 // pieces. A counting sort finds the piece of each record. Then, round after round, each rank gets
-// its next piece in order. So the records never exist twice, and a piece is in cache when its rank
-// uses it. Records are sent for several rounds together, so that ranks rarely wait for each other.
-// Price: 4 bytes a record, and room for the records of some pieces. Each record is read three times
-// on its rank, and sent once if another rank owns it.
+// its next piece in order. So there is never a second copy of all records, and a piece is in cache
+// when its rank uses it. Records are sent for several rounds together, so that ranks rarely wait
+// for each other. Cost: 4 bytes per record, and memory for the records of some pieces. Each record
+// is read three times on its rank, and sent once if another rank owns it.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +25,9 @@
 
 namespace carrom {
 
-/// Cuts the ids into pieces, and gives each rank a run of pieces. Runs are as equal as pieces
-/// allow, longer ones first. If there are fewer owners than ranks, the owners are spread evenly
-/// over the ranks. Each rank sends records to all owners, so fewer owners mean fewer messages.
+/// Cuts the ids into pieces, and assigns runs of consecutive pieces to the owners: all ranks, or
+/// fewer ranks that are spread evenly. The runs of owners differ by at most one piece, and longer
+/// runs come first. Each rank sends records to all owners, so fewer owners mean fewer messages.
 class Pieces {
 public:
     static constexpr std::uint64_t least_rows = 1 << 10, most_rows = 1 << 15;
@@ -56,11 +57,12 @@ private:
     std::uint64_t rows_;
 };
 
-/// Gives each rank its pieces, one in each round.
+/// Provides each rank with its sorted pieces, one in each round.
 template <Message T, class IdOf> class PieceStream {
 public:
-    /// `id_of(record)` gives the id; each of 0 .. n-1 must occur once over all ranks (tested
-    /// for each piece). `records` must stay unchanged as long as the stream is used.
+    /// `id_of(record)` returns the id. Each id 0 .. n-1 must occur exactly once on all ranks
+    /// together; this is tested for each piece. `records` must stay unchanged as long as the stream
+    /// is used.
     PieceStream(const Communicator& communicator, std::span<const T> records, std::uint64_t n,
                 const IdOf& id_of)
         : PieceStream(communicator, records, Pieces(n, communicator.size()), n, id_of) {}
@@ -182,7 +184,7 @@ private:
     std::uint64_t n_;
     Pieces pieces_;
     std::vector<std::uint32_t> order_;          ///< indices of this rank's records, sorted by piece
-    std::vector<std::uint32_t> first_in_order_; ///< where each piece begins in `order_`; the end
+    std::vector<std::uint32_t> first_in_order_; ///< begin of each piece in `order_`; then the end
     std::uint64_t round_ = 0, begin_ = 0;
     std::vector<T> piece_;
     std::vector<std::uint8_t> is_placed_;

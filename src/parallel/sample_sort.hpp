@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distributed sort of records in any distribution over the ranks.
+// Sorts records that are in any distribution over the ranks.
 //
-// Each rank sorts its own records, and a fixed share of all records become samples. Rank 0 sorts
-// the samples and cuts them into slices, and each record is sent once (Shi and Schaeffer 1992). The
+// Each rank sorts its own records and selects a fixed share of them as samples. Rank 0 sorts the
+// samples and cuts them into slices, and each record is sent once (Shi and Schaeffer 1992). The
 // number of samples of a rank is proportional to its records, so an uneven distribution does not
-// bias the cuts. Price: n log n / ranks comparisons, one any-to-any exchange, and about 64 samples
+// bias the cuts. Cost: n log n / ranks comparisons, one any-to-any exchange, and about 64 samples
 // per slice on rank 0. If records are distinct, a slice exceeds its share by less than ranks / 64
 // of the share, and by far less unless the data are a worst case.
 #pragma once
@@ -68,10 +68,10 @@ std::vector<T> choose_splitters(const Communicator& communicator, const std::vec
 
 } // namespace detail
 
-/// Returns the `communicator.rank()`-th of `n_slices` sorted slices of all ranks' records, nothing
-/// on ranks >= n_slices. Slices follow each other in the order `less` (strict, weak; the same on
-/// all ranks); equal records are in one slice, in the order of the ranks and places they came from.
-/// 1 <= n_slices <= size(). **Collective.**
+/// Sorts the records of all ranks into `n_slices` slices. Returns slice number
+/// `communicator.rank()`, and nothing on ranks >= n_slices. Slices follow each other in the order
+/// `less` (strict, weak; the same on all ranks). Equal records are in one slice, ordered by their
+/// old ranks and places. 1 <= n_slices <= size(). **Collective.**
 template <Message T, class Less>
 std::vector<T> sample_sort(const Communicator& communicator, std::vector<T> records,
                            const Less& less, int n_slices) {

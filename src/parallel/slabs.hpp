@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Records with ids 0 .. n-1 in equal shares by id. This is the layout of arrays of all discs, when
-// the ranks that own the discs do not matter.
+// Divides records with ids 0 .. n-1 into slabs: nearly equal shares of consecutive ids, one for
+// each rank. Arrays of all discs have this layout if it does not matter which ranks own the discs.
 #pragma once
 
 #include <algorithm>

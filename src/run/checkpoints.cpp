@@ -23,8 +23,8 @@ namespace {
 constexpr double seconds_between_agreements = 0.5;
 /// A run makes no copies if its ranks have more discs than this on average.
 constexpr double most_copied = 1e6;
-/// Least seconds between copies: the larger of a constant and a time for each disc of a rank. A
-/// copy takes some 20 ns a disc, and about as long again for the data of measurements.
+/// Seconds between copies are at least the larger of a constant and a time per disc of a rank. A
+/// copy takes about 20 ns a disc, and copying the data of measurements about as long again.
 constexpr double seconds_between_copies = 0.02, seconds_per_copied_disc = 4e-6;
 /// Seconds that a step may take after a request to stop. If no copies are made, it may take twice
 /// the last stretch's time, up to `most_patience`, because batch systems soon end the job.
@@ -45,7 +45,7 @@ Checkpoints::Checkpoints(Run& run, std::optional<CheckpointOutput> wanted)
         kept_.push_back(first);
     }
     if (!ranks_.is_root()) return;
-    remove_unfinished(wanted_->folder); // files that a killed run has left
+    remove_unfinished(wanted_->folder); // files that a killed run left unfinished
 }
 
 std::int64_t Checkpoints::next_due(std::int64_t step) const {
@@ -152,7 +152,7 @@ void Checkpoints::go_over_to(std::int64_t step) {
 }
 
 void Checkpoints::write() {
-    if (removal_.valid()) removal_.get(); // waits: the removed file's space may be needed
+    if (removal_.valid()) removal_.get(); // waits, because the space on the disk may be needed
     const std::string path = checkpoint_path(wanted_->folder, run_.step());
     run_.write_checkpoint(path, wanted_->transfers);
     record_written(path, run_.step());
@@ -168,8 +168,8 @@ void Checkpoints::record_written(const std::string& path, std::int64_t step) {
     seconds_since_written_ = 0;
 }
 
-/// Freeing the blocks of a large file takes about a fifth of the time that writing it takes, so
-/// another thread does this during the steps.
+/// Removes the oldest checkpoints if there are too many. Freeing the blocks of a large file takes
+/// about a fifth of the time that writing it takes, so another thread does it during the steps.
 void Checkpoints::remove_oldest() {
     const auto n_removed = std::max<std::ptrdiff_t>(
         0, std::ssize(kept_) - static_cast<std::ptrdiff_t>(wanted_->keep));

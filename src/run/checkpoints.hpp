@@ -40,7 +40,7 @@ public:
     /// The next step after `step` at which a checkpoint or a test for a request to stop is due.
     std::int64_t next_due(std::int64_t step) const override;
 
-    /// Stores the state if a checkpoint is due, after the other actions have made their work
+    /// Stores the state if a checkpoint is due, after the other actions have made their data
     /// permanent. Returns false if a stop was requested before the end; the state is then stored,
     /// if there is a folder. If storing fails every rank throws, and older checkpoints are
     /// unchanged. **Collective.**
@@ -82,7 +82,7 @@ private:
     double seconds_since_copied_ = 0;  ///< seconds by rank 0's clock
     std::optional<Copy> copy_;         ///< copy of a state after the last written one
     std::vector<std::string> kept_;    ///< paths of the checkpoints, oldest first
-    std::future<void> removal_;        ///< the removal of older checkpoints, on rank 0
+    std::future<void> removal_;        ///< removal of older checkpoints by rank 0
 };
 
 } // namespace carrom

@@ -31,7 +31,7 @@ std::size_t row_of(const SceneParameters& scene, DiscId id) {
     return 0;
 }
 
-/// Each disc becomes a row of `discs.species`, because discs of one row may differ by now.
+/// Each disc becomes a row of `discs.species`, because discs that shared a row may differ by now.
 void set_species(SceneParameters& around, const SceneParameters& scene,
                  const CheckFailure& failure) {
     const SpeciesTable table(scene.effects.species, scene.radius);
@@ -72,7 +72,7 @@ void set_species(SceneParameters& around, const SceneParameters& scene,
     }
 }
 
-/// Text of a scene of one step that begins with the surrounding discs, which `discs_file` lists.
+/// The text of a scene that runs one step from the surrounding discs, which `discs_file` lists.
 std::string text_around(const SceneParameters& scene, const CheckFailure& failure,
                         const std::string& discs_file) {
     std::string text = fmt::format("# {}\n# Discs as they were at step {}; their ids in {}:",

@@ -16,8 +16,8 @@ namespace carrom {
 std::string write_failure_scene(const std::string& folder, const SceneParameters& scene,
                                 const CheckFailure& failure);
 
-/// Lets rank 0 write the discs around the failure to the working folder. Returns the error, with
-/// code 70, for every rank to throw. **Collective.**
+/// Lets rank 0 write the discs around the failure to the working folder. Returns the error (code
+/// 70) that every rank must throw. **Collective.**
 CollectiveError reported(const CheckFailure& failure, const SceneParameters& scene,
                          const Communicator& ranks);
 

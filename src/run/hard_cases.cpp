@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// The largest speed of all discs on all ranks, per micro-step. **Collective.**
+/// The speed of the fastest disc on any rank, in lengths per micro-step. **Collective.**
 double largest_speed(const DiscSystem& system, const Communicator& ranks) {
     double square = 0;
     for (const DiscState& disc : system.discs())
@@ -43,12 +43,14 @@ void refuse_long_flights(const SceneParameters& scene, double speed, double up) 
                                    std::ceil(crossings / most_crossings))}});
 }
 
-/// How far a disc flies in the rounding error of a time; times count from the last sync.
+/// The distance that a disc flies in a time as long as the rounding error of times, which count
+/// from the last sync.
 double blurred_flight(const SceneParameters& scene, double speed) {
     return speed * static_cast<double>(scene.sync_every) * 0x1p-53;
 }
 
-/// Throws if rounding of times moves a disc by more than a radius: contacts would be meaningless.
+/// Throws if rounding of times moves a disc by more than a radius, because contacts would then be
+/// meaningless.
 void refuse_blurred_places(const SceneParameters& scene, double speed) {
     const double radii = blurred_flight(scene, speed) / scene.radius;
     if (radii <= 1) return;
@@ -60,12 +62,12 @@ void refuse_blurred_places(const SceneParameters& scene, double speed) {
                       speed / scene.radius, radii, std::ceil(radii))}});
 }
 
-/// The most ranks, at least 1, whose domains have no more discs in their halos than inside. At a
+/// The largest number of ranks, at least 1, for which halos have no more discs than domains. At a
 /// packing of 0.5 a rank fetches discs from up to h = 8 mean distances away: 16 strips of 1250
-/// discs, 8.8 such distances wide, have 1.65 halo discs for each own one
+/// discs, 8.8 such distances wide, have 1.65 discs in the halo for each disc inside
 /// (tests/performance/rank_loads.csv). With its halo, a strip of width w covers the width w + 2 h,
-/// and a square of side s covers (s + 2 h)^2. Halo and domain are equal for a strip with w = 2 h =
-/// 16, and for a square with s = 2 h / (sqrt(2) - 1) = 39, which has 1500 discs.
+/// and a square of side s covers (s + 2 h)^2. Halo and domain have equal areas for a strip with w =
+/// 2 h = 16, and for a square with s = 2 h / (sqrt(2) - 1) = 39, which has 1500 discs.
 double most_ranks_of(const SceneParameters& scene) {
     constexpr double both_sides = 2 * 8;
     constexpr double least_square = both_sides / (std::numbers::sqrt2 - 1);
@@ -104,7 +106,7 @@ void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
 }
 
 std::string warning_of_small_domains(const SceneParameters& scene, int n_ranks, int n_threads) {
-    // No warning below 8 ranks, because these are tests or small machines.
+    // No warning below 8 ranks, because such runs are tests or use small machines.
     constexpr int few_ranks = 8;
     const double most_ranks = most_ranks_of(scene);
     if (scene.method != Method::event_driven || n_ranks < few_ranks || n_ranks <= most_ranks)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Warnings for scenes that are legal but lose digits, and errors for scenes whose results
-// would be wrong (docs/understanding/hard-cases.md).
+// Warnings for scenes that are legal but lose precision, and errors for scenes whose results would
+// be wrong (docs/understanding/hard-cases.md).
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@
 namespace carrom {
 
 /// Warns if rounding of times moves a disc noticeably. Throws InputError on every rank if it moves
-/// one by a radius, or if one crosses a periodic box too often between syncs. **Collective.**
+/// a disc by more than a radius, or if a disc crosses a periodic box too often between syncs.
+/// **Collective.**
 void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
                        const Communicator& ranks, const Messages& messages);
 
@@ -22,8 +23,9 @@ void refuse_hard_cases(const SceneParameters& scene, const DiscSystem& system,
 void warn_of_close_pairs(const SceneParameters& scene, const Totals& start,
                          const Messages& messages);
 
-/// Returns a warning if ranks own so few discs that more lie in halos than in domains, and
-/// otherwise an empty text. It is empty for the time-stepped method, whose halos are not as deep.
+/// Returns a warning if ranks own so few discs that halos contain more discs than domains, and
+/// otherwise an empty text. The time-stepped method has thinner halos, so for it the text is always
+/// empty.
 std::string warning_of_small_domains(const SceneParameters& scene, int n_ranks, int n_threads);
 
 } // namespace carrom

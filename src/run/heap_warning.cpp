@@ -42,8 +42,8 @@ std::string remedy_of(const SceneParameters& scene) {
     return fmt::format("{} = {:.1g}", lasting_key, 0.5 * std::sqrt(pull * radius));
 }
 
-/// The largest number of collisions of a disc between two syncs in normal flows with lasting
-/// contacts. If lasting_contacts.speed is too small, there are about a hundred.
+/// The largest mean number of collisions of a disc between two syncs in normal flows with lasting
+/// contacts. If lasting_contacts.speed is too small, it is about a hundred.
 constexpr double most_where_lasting = 30;
 /// The rate of collisions is averaged over this number of intervals between syncs.
 constexpr std::int64_t intervals_of_flow = 16;

@@ -3,12 +3,12 @@
 // other too fast for their contacts to last.
 //
 // A disc at rest collides a few times in each contact time. A flying disc collides far less often,
-// because its flights are much longer than a contact time. So heaps have more than one collision of
-// a disc in a contact time, on average between two syncs, and gases have fewer at any speed and
-// density. Lasting contacts leave a few collisions of a disc between two syncs. If
+// because its flights are much longer than a contact time. So a disc in a heap has more than one
+// collision per contact time, on average between two syncs, and a disc in a gas has fewer at any
+// speed and density. Lasting contacts leave a few collisions of a disc between two syncs. If
 // effects.lasting_contacts.speed is too small for a flow, its discs bounce between neighbours
-// instead, some hundred times until the next sync. Cost: a sum over discs and ranks at each sync,
-// only in scenes where discs fall and lose energy.
+// instead, about a hundred times until the next sync. Cost: a sum over discs and ranks at each
+// sync, only in scenes where discs fall and lose energy.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,8 @@ namespace carrom {
 std::string csv_of(const MeasuredTable& table, const std::string& scene_name);
 
 /// Rank 0 writes each table that does not grow, and the file tables.h5 of all tables if the scene
-/// wants it. If a file cannot be written every rank throws CollectiveError, code 4. **Collective.**
+/// requests it. If a file cannot be written every rank throws CollectiveError, code 4.
+/// **Collective.**
 void write_tables(const SceneParameters& scene, const std::vector<MeasuredTable>& tables,
                   const Communicator& ranks);
 
@@ -28,8 +29,8 @@ public:
     GrowingFiles(const SceneParameters& scene, const Communicator& ranks)
         : scene_(scene), ranks_(ranks) {}
 
-    /// Rank 0 appends the rows that are missing in the files; the first call makes the files.
-    /// Throws like `write_tables`, also if another program has changed a file. **Collective.**
+    /// Rank 0 appends the rows that the files lack; the first call creates the files. Throws like
+    /// `write_tables`, also if another program has changed a file. **Collective.**
     void add_rows_of(const Sampler& sampler);
 
 private:

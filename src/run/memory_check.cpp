@@ -10,8 +10,8 @@ namespace carrom {
 
 void check_memory(const SceneParameters& scene, const Communicator& ranks,
                   double bytes_for_crowds) {
-    // The bytes were measured on one to three ranks by tests/studies/memory.py. Several ranks need
-    // more, for halos and for discs that they send to each other.
+    // The bytes per disc were measured on one to three ranks by tests/studies/memory.py. Several
+    // ranks need more, for halos and for discs that they send to each other.
     const bool are_many = ranks.size() > 1;
     const double bytes_per_disc = scene.method == Method::event_driven ? (are_many ? 110 : 106)
                                                                        : (are_many ? 97 : 92);

@@ -8,7 +8,7 @@
 namespace carrom {
 
 /// Throws InputError on every rank if the discs need more memory than a rank has.
-/// `bytes_for_crowds`: extra bytes of clusters, divided by the number of discs. **Collective.**
+/// `bytes_for_crowds`: extra bytes per disc if discs are clustered. **Collective.**
 void check_memory(const SceneParameters& scene, const Communicator& ranks,
                   double bytes_for_crowds = 0);
 

@@ -17,10 +17,10 @@ namespace carrom {
 
 namespace {
 
-constexpr double seconds_between_commits = 0.8; ///< short enough for readers that follow a run
+constexpr double seconds_between_commits = 0.8; ///< short enough for programs that follow a run
 constexpr double largest_share = 0.02;          ///< largest share of time that commits may take
 
-/// Compares by the total order. Walls come before discs, because q + 1 is 0 for a wall.
+/// Whether `a` is before `b` in the total order. Walls come before discs: q + 1 is 0 for a wall.
 bool comes_before(const Collision& a, const Collision& b) {
     const auto key = [](const Collision& c) {
         return std::tuple(c.micro_step, c.time, c.generation, c.p, c.q + 1);
@@ -31,7 +31,7 @@ bool comes_before(const Collision& a, const Collision& b) {
 } // namespace
 
 LoggedCollision logged(const Collision& collision, std::int64_t micro_steps) {
-    // A collision at the end of a step belongs to this step; at the start of the run, to step 1.
+    // A collision exactly at the end of a step belongs to it; one at the run's start, to step 1.
     const auto n_micro = std::max<std::int64_t>(
         1, static_cast<std::int64_t>(std::ceil(collision.time)));
     LoggedCollision entry;

@@ -3,7 +3,8 @@
 // order, and measurements. Each commit writes the tables of measurements anew. The table "thermo"
 // is written as it grows.
 //
-// Commits come before each checkpoint, at the end, and about once a second for other readers.
+// Data are committed before each checkpoint, at the end, and about once a second, so that other
+// programs can read them.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +28,10 @@ LoggedCollision logged(const Collision& collision, std::int64_t micro_steps);
 
 class Recordings : public StepAction {
 public:
-    /// A restart opens the files and checks them, but writes nothing yet; it throws (exit code 2)
-    /// if it cannot continue them. From here on the simulation collects its collisions for the log.
-    /// All arguments must outlive this object, which must outlive the run's steps. **Collective.**
+    /// In a restart, opens the files and checks that the run can continue them; if not, throws
+    /// (exit code 2). Writes nothing yet. From here on the simulation collects its collisions for
+    /// the log. All arguments must outlive this object, which must outlive the run's steps.
+    /// **Collective.**
     Recordings(Run& run, const Messages& messages);
 
     /// In a restart, cuts the files back to the present step; otherwise makes new files with the

@@ -15,7 +15,8 @@ namespace carrom {
 
 namespace {
 
-/// Returns the scene with a chosen method and number of micro-steps. **Collective.**
+/// Returns the scene. If it has `time.accuracy`, a pilot chooses method and micro-steps.
+/// **Collective.**
 SceneParameters decided(SceneParameters scene, const RunStart& start, const Communicator& ranks,
                         const Tuning& tuning, const Messages& messages) {
     if (scene.accuracy) choose_setting(scene, start.discs, messages, ranks, tuning);
@@ -39,7 +40,7 @@ Run::Run(SceneParameters scene, RunStart start, const Communicator& ranks, const
       stop_(scene_, system_, ranks_, start.samples.stop), sampler_(scene_, system_, ranks_),
       watch_(scene_, system_, ranks_), heap_warning_(scene_, system_, ranks_, messages) {
     if (const double more = system_.engine().bytes_for_crowds(); more > 0 && !is_restart_)
-        check_memory(scene_, ranks_, more); // checked here, because it needs the positions
+        check_memory(scene_, ranks_, more); // not earlier, because it depends on the positions
     refuse_hard_cases(scene_, system_, ranks_, messages);
     if (start.counts_images || (scene_.trajectory && scene_.trajectory->has_image)) {
         images_.emplace(system_, ranks_);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run of a scene: its simulation, its measurements, and the actions between steps.
 //
-// The program and the library make and step runs in the same way. They differ in the actions that
-// they add: the program adds lines of text, recordings and checkpoints; the library adds
+// The program and the library create and advance runs in the same way. They differ in the actions
+// that they add: the program adds lines of text, recordings and checkpoints; the library adds
 // checkpoints on request.
 #pragma once
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ends a run before its last step, by the conditions of `[time.stop]`.
+// Ends a run before its last step if a condition of `[time.stop]` holds.
 //
 // Conditions are checked at step 0, and at the end of each step with a sync. The steps of syncs
 // depend on the scene alone, and sums are exact. So the run ends at the same step on any number of
-// ranks and threads, and also after restarts. The pressure is the mean since the last check; a
-// checkpoint stores the sums of the unfinished interval. Cost of a check: at most two passes over
-// the discs. Without conditions nothing is done.
+// ranks and threads, and also after restarts. The pressure is the mean since the previous check; a
+// checkpoint stores the sums of the unfinished interval. Cost of a check: about one pass over the
+// discs for each quantity that is compared. Without conditions nothing is done.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ std::string text_of(const StopReason& reason);
 
 class StopCheck : public StepAction {
 public:
-    /// Continues from the data of a checkpoint, if there are any. Must be made before any step. All
+    /// Continues from the data of a checkpoint, if there are any. Construct it before any step. All
     /// arguments must outlive this object. **Collective.**
     StopCheck(const SceneParameters& scene, DiscSystem& system, const Communicator& ranks,
               std::span<const std::int64_t> stored);
@@ -45,9 +45,9 @@ public:
     /// Returns false when a condition holds.
     bool act() override;
 
-    /// Why the run ends at the present step; nothing if it goes on.
+    /// Why the run ends at the present step; nullopt if it goes on.
     const std::optional<StopReason>& reason() const { return reason_; }
-    /// The data for a checkpoint; empty if no pressure is compared. **Collective.**
+    /// The data for a checkpoint; empty if no condition uses the pressure. **Collective.**
     std::vector<std::int64_t> stored();
 
 private:

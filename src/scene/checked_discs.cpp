@@ -84,8 +84,8 @@ void check_numbers(const SceneDraft& draft) {
     });
 }
 
-/// Computes the number of discs. It is given, or follows from a list, species or groups; if several
-/// of them give it, they must agree.
+/// Finds the number of discs from `discs.count`, a list, species or groups. If several of them give
+/// it, they must agree.
 void fill_count(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     std::uint64_t n_in_species = 0;
@@ -159,8 +159,8 @@ void check_sizes(const SceneDraft& draft) {
     check_width(draft, smallest);
 }
 
-/// Warns of masses so different that sums over discs lose the contributions of light discs: sums
-/// are whole multiples of a unit that the heaviest disc sets (core/exact_sum.hpp).
+/// Warns of masses so different that sums over discs lose the contributions of light discs, because
+/// sums are multiples of a unit that is proportional to the largest mass (core/exact_sum.hpp).
 void warn_of_lost_masses(const SceneDraft& draft) {
     constexpr double most = 1e8;
     SceneParameters& scene = draft.scene;
@@ -174,7 +174,8 @@ void warn_of_lost_masses(const SceneDraft& draft) {
         heaviest.mass / lightest.mass, most, most * lightest.mass));
 }
 
-/// Points (radius 0) never meet each other, and they need the event-driven method.
+/// Checks settings for discs of radius 0 (points). They need the event-driven method, and if there
+/// are several, the contact kind "none", because two points never meet.
 void check_points(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!scene.are_points) return;
@@ -230,10 +231,10 @@ bool fill_sizes(const SceneDraft& draft) {
     return draft.problems.size() == n_problems;
 }
 
-/// The triangular lattice must fit the periodic box and leave enough room for the discs.
+/// Checks that a triangular lattice fits the periodic box, and that discs do not overlap on it.
 void check_triangular(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
-    // walls are reported by rules.cpp
+    // rules.cpp reports walls
     if (!scene.effects.is_periodic_x() || !scene.effects.is_periodic_y()) return;
     const auto lattice = triangular_lattice(scene.n_discs, scene.box);
     if (!lattice)
@@ -253,7 +254,8 @@ void check_triangular(const SceneDraft& draft) {
                                nearest / 2));
 }
 
-/// Above a packing of 0.5, a lattice replaces random insertion, except with regions or groups.
+/// Checks initial positions. Above a packing of 0.5 a lattice replaces random ones, except in
+/// regions and groups.
 void check_generator(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     check_regions(draft);
@@ -281,7 +283,8 @@ void check_generator(const SceneDraft& draft) {
                               "discs.generator = \"compressed\""));
 }
 
-/// Checks the root mean square speed of the lightest discs, which are the fastest on average.
+/// Checks the root mean square speed of the lightest discs at `discs.temperature`, because they are
+/// the fastest on average.
 void check_temperature(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (!scene.temperature || *scene.temperature == 0) return;

@@ -18,7 +18,7 @@ bool do_overlap(const StartRegion& a, const StartRegion& b) {
     return a.x_low < b.x_high && b.x_low < a.x_high && a.y_low < b.y_high && b.y_low < a.y_high;
 }
 
-/// Checks rows of `discs.groups`. Stores the radius and mass of each row of `discs.species`.
+/// Checks rows of `discs.groups` with the radii and masses in the rows of `discs.species`.
 class GroupCheck {
 public:
     explicit GroupCheck(const SceneDraft& draft) : scene_(draft.scene) {
@@ -64,8 +64,8 @@ private:
                            "packing covers more than {}",
                            group.count, body.radius, area / box.area(), largest_packing);
     }
-    /// Of groups whose regions overlap, at most one may have a lattice or compressed discs, because
-    /// only random discs find places among other discs.
+    /// If regions of groups overlap, at most one of these groups may be a lattice or compressed,
+    /// because only random insertion finds room between discs that are already there.
     std::string problem_of_rivals(std::size_t k) const {
         if (groups_[k].generator == Generator::random) return {};
         for (std::size_t i = 0; i < k; ++i)

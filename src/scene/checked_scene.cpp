@@ -20,7 +20,7 @@ namespace carrom {
 
 namespace {
 
-/// Converts places from the users' coordinates to those of the computation. Box and origin are
+/// Converts positions from users' coordinates to internal ones (places.hpp). Box and origin are
 /// stored first, so the result does not depend on the order of keys in the input.
 void take_origin(const SceneDraft& draft, std::span<const std::pair<const Key*, Setting*>> right) {
     if (!draft.settings.has("box.origin")) return;
@@ -34,8 +34,8 @@ void take_origin(const SceneDraft& draft, std::span<const std::pair<const Key*, 
             move_places(*key, setting->value, origin.x, origin.y);
 }
 
-/// The origin must be near the box, because places lose digits if it is far away. Texts in the
-/// legacy format have no origin.
+/// Checks that the origin is near the box, because otherwise coordinates lose precision. Texts in
+/// the legacy format have no origin.
 void check_origin(const SceneDraft& draft) {
     constexpr double farthest = 1000;
     const SceneParameters& scene = draft.scene;
@@ -55,7 +55,7 @@ void take_values(const SceneDraft& draft) {
     for (const Table& table : tables()) {
         const auto& all = draft.settings.all();
         if (std::any_of(all.begin(), all.end(), [&table](const Setting& one) {
-                // 'discs.radius' is a key here; its table exists if the input has keys of it
+                // 'discs.radius' counts as a key of [discs], although a table has this name, too
                 const Key* key = find_key(one.key);
                 return key ? key->table() == table.name : one.key == table.name;
             }))
@@ -92,7 +92,7 @@ void derive_defaults(const SceneDraft& draft) {
         choose_fields(*scene.trajectory, scene);
 }
 
-/// Puts all outputs of a run into one folder. A run with a folder writes checkpoints.
+/// Sets the paths of all outputs in the run's folder. A run with a folder writes checkpoints.
 void place_outputs(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (scene.folder.empty()) return;
@@ -103,7 +103,8 @@ void place_outputs(const SceneDraft& draft) {
     if (scene.measurements) scene.measurements->folder = scene.folder + "/measurements";
 }
 
-/// Whether the text names a key whose value is wrong, so that other problems may follow from it.
+/// Whether the text names a key whose value is wrong. Then the problem that the text describes may
+/// only be a consequence of this value.
 bool depends_on_wrong_value(const SceneDraft& draft, std::string_view text) {
     const auto& all = draft.settings.all();
     return std::any_of(all.begin(), all.end(), [text](const Setting& one) {
@@ -126,7 +127,7 @@ bool has_wrong_neighbour(const SceneDraft& draft, const Key& key) {
     });
 }
 
-/// Reports keys without a meaning, missing keys, and keys that exclude each other.
+/// Reports if `key` has no meaning, if it is missing, or if it excludes another key of the input.
 void check_needs(const SceneDraft& draft, const Key& key) {
     const Settings& settings = draft.settings;
     const auto is_there = [&settings](std::string_view other) { return settings.has(other); };

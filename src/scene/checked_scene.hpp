@@ -8,9 +8,9 @@
 
 namespace carrom {
 
-/// Fills in `scene`, checks it, and adds errors to `problems`. A number of discs that is unknown is
-/// 0. A box and a radius that are not valid together become 0; the box stays if radii are in a
-/// file and still unknown. `columns`: the columns of that file; null if it has not been read.
+/// Fills in `scene`, checks it, and adds errors to `problems`. An unknown number of discs is 0. If
+/// box and radii are not valid together, both become 0; but the box is kept if radii are in a file
+/// and still unknown. `columns`: the columns of that file; null if it has not been read.
 void fill_scene(SceneParameters& scene, Settings& settings, Problems& problems,
                 const DiscColumns* columns);
 

@@ -12,11 +12,11 @@ namespace carrom {
 
 namespace {
 
-/// Limits the number of samples, because tables that grow with time are kept in memory and in
-/// checkpoints.
+/// The largest number of samples for quantities whose tables grow with time, because these tables
+/// are kept in memory and in checkpoints.
 constexpr std::int64_t most_samples_of_histories = 100000;
 
-/// The first sample must be within the run. Runs of 0 steps measure nothing, so any step is valid.
+/// Checks that the first sample is within the run, except in runs of 0 steps, which take none.
 void check_first_sample(const SceneDraft& draft, std::string_view key, std::int64_t from) {
     const std::int64_t last = draft.scene.steps;
     if (from > last && last > 0)

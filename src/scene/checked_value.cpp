@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// The word in small letters, without `-`, `_` and blanks: Nose-Hoover and nosehoover are equal.
+/// The word in lower case, without `-`, `_` and blanks, so that Nose-Hoover equals nosehoover.
 std::string letters_of(std::string_view word) {
     std::string letters;
     for (const char c : word)
@@ -223,7 +223,7 @@ private:
                               takes_list ? "numbers, " + std::string(field.form) : "a number"));
         return {};
     }
-    /// The index of the value's word among the words of the field, as the only number.
+    /// The index of the value's word in `field.words`, as a list of one number.
     Numbers number_of_word(const Value& value, const Field& field, const std::string& name,
                            std::int64_t line) {
         const auto* flag = std::get_if<bool>(&value.data);
@@ -262,7 +262,7 @@ private:
                                                          fmt::format("{}: {}", name, field.name),
                                                          found->second.line);
                 all.insert(all.end(), numbers.begin(), numbers.end());
-                // NaN stands for a number that is missing.
+                // NaN would mean that the number is missing.
                 if (field.fallback &&
                     std::ranges::any_of(numbers, [](double x) { return std::isnan(x); }))
                     refuse_at(found->second.line,

@@ -23,7 +23,7 @@ std::string difference_in(const Key& key, const SceneParameters& there,
     const bool is_there = key.has_meaning(there), is_here = key.has_meaning(here);
     const bool is_about_generator = key.need && key.need->is_of_generator;
     if (!key.is_physical || key.is_same(there, here) || (!is_there && !is_here)) return {};
-    // Keys that have a meaning for only one of the generators: the generators are reported
+    // If the generators differ, this is reported, and not the keys that only one of them has
     if (is_there != is_here && is_about_generator) return {};
     if (key.has_rows()) return fmt::format("'{}' is another list there", key.name);
     return fmt::format("'{}' is {} there and {} here", key.name, shown(key, there),

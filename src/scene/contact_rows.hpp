@@ -19,7 +19,7 @@ std::optional<std::size_t> count_species_rows(const SceneDraft& draft);
 bool is_species_row(double number, std::size_t n_rows);
 
 /// Why restitution, tangential restitution or friction of `row` (indices `begin` to `begin` + 2) is
-/// wrong; empty if all are valid. `why_smooth`: what the last two need, but lack, or empty.
+/// wrong; empty if all are valid. `why_smooth`: the setting that the last two lack, or empty.
 std::string problem_of_contact_numbers(const Numbers& row, std::size_t begin,
                                        std::string_view why_smooth);
 

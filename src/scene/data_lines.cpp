@@ -40,7 +40,7 @@ bool DataLines::next(std::string_view& line) {
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
 
 void replace_commas(std::string& text) {
-    bool is_empty = true; // whether there are only blanks since the last comma or the beginning
+    bool is_empty = true; // whether the present field has only blanks so far
     for (char& c : text) {
         if (c == ',')
             c = std::exchange(is_empty, true) ? '?' : ' ';

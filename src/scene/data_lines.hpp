@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the lines with data of a list of discs.
+// Reads those lines of a list of discs that contain data.
 //
-// A file of discs (`discs.file`) may come from another program. So `#` begins a comment there,
+// A file of discs (`discs.file`) may come from another program. So in it `#` begins a comment,
 // commas or blanks separate numbers, and the first line may name the columns. Lines after a legacy
 // header, and lines of `discs.from`, contain only numbers and blanks. Cost: one copy of each line
 // that has commas.
@@ -21,7 +21,7 @@ namespace carrom {
 
 class DataLines {
 public:
-    /// `begins_list`: the stream is at the first line of the list. LineReader explains the others.
+    /// `begins_list`: the stream is at the first line of the list. For the others see LineReader.
     DataLines(std::istream& stream, const SceneParameters& scene, std::int64_t lines_before,
               std::uint64_t n_bytes = LineReader::no_limit, bool begins_list = true);
 
@@ -47,7 +47,7 @@ void replace_commas(std::string& text);
 /// Whether the words are column names: there are several words, and none of them is a number.
 bool are_names(const std::vector<std::string_view>& words);
 /// The column that a word of a header line names, such as "radius" or "R"; nothing if no column has
-/// this name. Capital letters count as small ones.
+/// this name. The case of letters does not matter.
 std::optional<DiscColumn> column_of(std::string_view name);
 
 /// The columns of the scene's lines of discs, in their order. `discs.columns` names either all

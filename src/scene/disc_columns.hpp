@@ -13,7 +13,7 @@
 
 namespace carrom {
 
-/// Numbers in the order of ids. If `is_whole` is false, the file is unreadable, or has wrong lines
+/// Numbers in order of id. If `is_whole` is false, the file is unreadable, or has wrong lines
 /// or a wrong number of lines. DiscReader reports this when it reads the discs.
 struct DiscColumns {
     std::vector<Species> species; ///< empty if the file has no column of radii
@@ -21,7 +21,7 @@ struct DiscColumns {
     bool is_whole = true;
 };
 
-/// Reads all lines of `stream` from the first one. Needs 48 bytes of memory per disc as it reads.
+/// Reads all lines of `stream` from the first one. This takes 48 bytes of memory per disc.
 DiscColumns read_disc_columns(std::istream& stream, const SceneParameters& scene);
 
 bool has_column(const SceneParameters& scene, DiscColumn column);
@@ -29,7 +29,7 @@ bool has_column(const SceneParameters& scene, DiscColumn column);
 bool has_columns_beside(const SceneParameters& scene);
 /// Whether the lines of the scene's file contain velocities.
 bool lines_have_velocities(const SceneParameters& scene);
-/// The member of `body` or `beside` for a column other than ids, positions and velocities.
+/// The number in `body` or `beside` that belongs to a column of radii or masses or a side column.
 double& number_of(DiscColumn column, SizeAndMass& body, BySideColumn<double>& beside);
 /// The column's name in scenes.
 const char* name_of(DiscColumn column);

@@ -22,8 +22,8 @@ using Columns = std::vector<DiscColumn>;
 constexpr std::string_view expected = "expected lines `id x y vx vy`, or a first line that names "
                                       "the columns";
 
-/// Recognises the format of a file that is not a list of discs by its first line. Returns the text
-/// of an error; empty if the file may be a list.
+/// Returns an error message if the first line shows that the file has another format, such as HDF5;
+/// empty if the file may be a list of discs.
 std::string other_format(std::string_view line) {
     if (line.starts_with("\x89HDF"))
         return "is an HDF5 file; try: discs.from, which takes checkpoints and trajectories";
@@ -33,7 +33,7 @@ std::string other_format(std::string_view line) {
     return {};
 }
 
-/// The columns that words name. Unknown names are added to `unknown`.
+/// The columns that the words name. Unknown names are added to `unknown`.
 Columns columns_named(const std::vector<std::string_view>& words, std::string& unknown) {
     Columns columns;
     for (const std::string_view word : words) {
@@ -109,7 +109,7 @@ private:
         return false;
     }
 
-    /// Takes a comment as the header line if all its words name columns, x and y among them.
+    /// Uses a comment as the header line if all its words name columns, x and y among them.
     void take_comment(const std::vector<std::string_view>& words) {
         std::string unknown;
         const Columns columns = columns_named(words, unknown);
@@ -188,7 +188,7 @@ private:
     std::string place_;
     LineReader lines_;
     bool is_header_taken_ = false;
-    std::optional<Columns> columns_; ///< columns of a line, once named or guessed
+    std::optional<Columns> columns_; ///< set when the columns are named or guessed
     SurveyOfDiscs found_;
 };
 

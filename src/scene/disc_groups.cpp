@@ -13,7 +13,7 @@ namespace carrom {
 
 namespace {
 
-/// The largest number of groups; the initial speeds of each group need sums over all ranks
+/// Limits the number of groups, because initial speeds of each group need sums over all ranks
 constexpr std::size_t most_groups = 1000;
 
 /// The indices of the numbers in a row of `discs.groups`.

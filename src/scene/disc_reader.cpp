@@ -19,7 +19,7 @@ std::optional<std::size_t> place_of_id(const std::vector<DiscColumn>& columns) {
     return static_cast<std::size_t>(found - columns.begin());
 }
 
-/// Where the number of a column is stored; null for the column of ids.
+/// A pointer to the number that a column gives; null for the column of ids.
 double* place_of(DiscColumn column, InputDisc& disc, SizeAndMass& body,
                  BySideColumn<double>& beside) {
     switch (column) {
@@ -66,8 +66,8 @@ bool DiscReader::read(std::vector<InputDisc>& chunk, std::size_t limit, const In
     return !chunk.empty();
 }
 
-/// Copies up to `limit` lines, because the reader of lines keeps only one. Returns false if there
-/// are none.
+/// Copies up to `limit` lines, because `lines_` keeps only the latest one. Returns false if no line
+/// is left.
 bool DiscReader::take_lines(std::size_t limit) {
     text_.clear();
     taken_.clear();
@@ -112,7 +112,7 @@ std::vector<Problem> DiscReader::problems() const {
     return all;
 }
 
-/// Reads the disc. Collects errors, except a wrong id, in `line.fault`.
+/// Reads the disc in `line`. Collects errors in `line.fault`; record_id reports a wrong id.
 void DiscReader::parse(Line& line, std::vector<std::string_view>& words) const {
     if (line.is_cut) return;
     const std::size_t n_words = columns_.size();

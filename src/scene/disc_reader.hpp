@@ -2,12 +2,12 @@
 // Reads discs from lines of text in bounded chunks, so that one rank can read more discs than fit
 // into its memory.
 //
-// A line is "id x y vx vy", or has other columns (`discs.columns`), in any order of ids. Columns
-// beyond positions and velocities are only checked here; read_disc_columns reads them. The test
-// that every id occurs once needs up to one bit a disc. Reading takes less than a microsecond
-// a line. Threads parse the lines of a chunk; then ids are recorded in the order of lines. With no
+// A line is "id x y vx vy", or has other columns (`discs.columns`). Ids may be in any order.
+// Columns beyond positions and velocities are only checked here; read_disc_columns reads them. The
+// test that every id occurs once needs up to one bit per disc. Reading takes less than 1 us per
+// line. Threads parse the lines of a chunk; then ids are recorded in the order of lines. Without a
 // column of ids, discs are numbered in the order of lines. Positions are relative to the users'
-// origin (scene/places.hpp), but in lines of `discs.from` to the lower left corner of the box.
+// origin (scene/places.hpp), or in lines of `discs.from` to the lower left corner of the box.
 //
 // Problems are collected, not thrown, so that one pass over a file finds them all.
 #pragma once
@@ -51,7 +51,7 @@ public:
     /// Reads a part; `stream` is at its first line. Does not test that ids occur once.
     DiscReader(std::istream& stream, const SceneParameters& scene, const Part& part);
 
-    /// Replaces `chunk` by at most `limit` further discs; returns false if there were none.
+    /// Replaces the contents of `chunk` by up to `limit` further discs; false if no disc is left.
     bool read(
         std::vector<InputDisc>& chunk, std::size_t limit,
         const InParts& in_parts = [](std::size_t n, const auto& work) { work(0, n); });
@@ -70,7 +70,7 @@ private:
         std::size_t begin = 0, end = 0; ///< range of the line in `text_`
         std::int64_t number = 0;
         bool is_cut = false;
-        /// Whether the disc has a valid id; other errors are searched only then
+        /// Whether the line has a valid id; other errors are reported only in this case
         bool has_number = false;
         InputDisc disc;
         std::string fault;
@@ -100,7 +100,7 @@ private:
     DataLines lines_;
     DiscId next_id_ = 0; ///< the next id, for lines without ids
     bool are_ids_noted_ = true;
-    std::vector<bool> seen_; ///< by id: whether it has occurred; grows as needed
+    std::vector<bool> seen_; ///< whether each id has occurred; grows as needed
     std::uint64_t n_seen_ = 0;
     std::vector<char> text_;
     std::vector<Line> taken_;
@@ -108,7 +108,7 @@ private:
     std::uint64_t n_problems_ = 0;
 };
 
-/// The problems that DiscReader finds in the lines of `stream`; the discs are dropped. The scene
+/// The problems that DiscReader finds in the lines of `stream`; discs are not kept. The scene
 /// may have problems itself. If its number of discs is 0, missing discs are not reported; if its
 /// box is 0, positions outside of the box are not reported.
 std::vector<Problem> disc_line_problems(std::istream& stream, const SceneParameters& scene);

@@ -11,7 +11,8 @@ namespace carrom {
 
 namespace {
 
-/// The step of frame k. 10^(k / n) is whole or irrational, not a half, so machines round it alike.
+/// The step of frame k, rounded. Before rounding it is whole or irrational, so it is never halfway
+/// between two whole numbers, and all machines round it alike.
 double growing_step(const TrajectoryOutput& output, std::int64_t k) {
     return std::round(
         static_cast<double>(output.every_steps) *

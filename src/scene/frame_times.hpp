@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The steps that have a frame in a trajectory: step 0, and then steps at equal distances, or steps
-// that grow by a constant factor, because a slow liquid changes in each decade of time.
+// that grow by a constant factor, which suit slow liquids that change in each decade of time.
 #pragma once
 
 #include <cstdint>

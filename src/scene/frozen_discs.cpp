@@ -33,7 +33,7 @@ template <class Run> void shorten(std::vector<Run>& runs, const std::vector<Froz
                   [&begin](const Run& run) { return std::exchange(begin, run.end) == run.end; });
 }
 
-/// Subtracts the frozen discs from the counts of species or groups, which are in the order of ids.
+/// Subtracts the frozen discs from the counts of species or groups, which are in order of id.
 template <class Part>
 void subtract(std::vector<Part>& parts, const std::vector<FrozenDisc>& frozen) {
     DiscId begin = 0;

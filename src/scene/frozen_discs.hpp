@@ -2,9 +2,9 @@
 // Discs of the initial state that became fixed bodies: `discs.freeze`, and `freeze = true` in a
 // group.
 //
-// Which discs these are is known once the discs have positions. From then on they are fixed bodies
-// of the scene and no longer discs. The setting `discs.frozen` lists them. Checkpoints
-// store settings, so a restart need not make the initial state again.
+// They are known when all discs have their initial positions. From then on they are fixed bodies of
+// the scene and no longer discs. The setting `discs.frozen` lists them. Checkpoints store settings,
+// so a restart does not need to generate the initial state again.
 #pragma once
 
 #include <string>
@@ -18,12 +18,12 @@ namespace carrom {
 
 std::vector<Key> keys_of_freezing();
 
-/// Why these discs, in the order of ids, cannot be fixed bodies; empty if they can.
+/// Why these discs, in order of id, cannot be fixed bodies; empty if they can.
 std::string problem_of_frozen(const SceneParameters& scene, const std::vector<FrozenDisc>& frozen);
 
 /// Makes the discs fixed bodies, and adds the setting that lists them. The scene must have a key
 /// that freezes discs, and no frozen discs yet. `has_others_alone`: the scene's species already
-/// lack the frozen discs, because these species come from a checkpoint of the moving discs.
+/// exclude the frozen discs, because they were read from a checkpoint of the moving discs.
 void set_frozen(SceneParameters& scene, std::vector<FrozenDisc> frozen,
                 bool has_others_alone = false);
 

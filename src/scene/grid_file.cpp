@@ -18,7 +18,7 @@ namespace carrom {
 
 namespace {
 
-/// Most characters of a line: 64 for each of 2^18 numbers. A double needs at most 30.
+/// The longest allowed line: 64 characters for each of 2^18 numbers. A double needs at most 30.
 constexpr std::size_t most_characters = std::size_t{1} << 24;
 
 class Rows {

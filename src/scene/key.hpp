@@ -53,7 +53,7 @@ struct Range {
 
 /// A condition that a key depends on: without it the key has no meaning.
 struct Need {
-    std::string text; ///< describes the missing condition, after the words "has no meaning"
+    std::string text; ///< the missing condition; ends the message "... has no meaning ..."
     std::function<bool(const SceneParameters&)> holds;
     bool is_of_generator = false; ///< the condition concerns how discs are generated
 };
@@ -65,7 +65,7 @@ struct Field {
     std::string_view name;
     std::string_view form; ///< the shape of the numbers, such as "[x, y, radius]"
     std::size_t least = 1, most = 1;
-    std::optional<double> fallback = {}; ///< default; NaN: may be missing; unset: required
+    std::optional<double> fallback = {}; ///< default; NaN if optional; unset if required
     /// The allowed words; the stored number is the index of the word. The words "false" and "true"
     /// of a flag have no quotes.
     std::vector<std::string_view> words = {};
@@ -85,10 +85,10 @@ struct Key {
     bool is_seed = false;                          ///< replicas get different values
     bool is_physical = true;                       ///< a restart cannot change it
     std::vector<std::string_view> instead_of = {}; ///< keys that cannot be given together with it
-    /// If the key is required: keys each of which may be given instead of it
+    /// If the key is required: keys any of which may be given instead of it
     std::vector<std::string_view> or_from = {};
     std::string_view old_name = "";
-    /// Words that other programs use as values of this key, and the advice for each.
+    /// Words that other programs use for values of this key, each with advice for an error message.
     std::vector<std::pair<std::string_view, std::string_view>> advice = {};
     std::vector<Field> fields = {};
     /// For Kind::rows: a single row may be written without the outer brackets
@@ -140,7 +140,7 @@ struct Table {
     std::string_view help = "";
     bool (*is_in)(const SceneParameters&) = [](const SceneParameters&) { return true; };
     void (*create)(SceneParameters&) = [](SceneParameters&) {};
-    bool is_like_another = false; ///< the reference page describes an equal table instead
+    bool is_like_another = false; ///< the reference page describes it with another table
 
     /// Whether a scene may leave out the table because its feature is optional.
     bool is_optional() const { return !is_in(SceneParameters{}); }
@@ -164,7 +164,7 @@ const Key* find_key(std::string_view name);
 const Table* find_table(std::string_view name);
 
 /// The scene's effects with the micro-step as the unit of time, as the dynamics needs them. Numbers
-/// are converted by the units of their keys.
+/// are converted according to the units of their keys.
 Effects per_micro_step(const SceneParameters& scene);
 
 std::vector<Key> keys_of_discs();

@@ -188,7 +188,7 @@ inline Key named_key(std::string name, std::string_view unit, std::string_view h
     return named;
 }
 
-/// The key of the member to which `member(scene)` returns a reference; the scene may be const.
+/// A key for the member to which `member(scene)` returns a reference; the scene may be const.
 template <class Get>
 Key key(std::string name, std::string_view unit, std::string_view help, const Get& member) {
     Key declared = named_key(std::move(name), unit, help);

@@ -112,7 +112,7 @@ Key origin_key() {
     return origin;
 }
 
-/// A radius of 0 means points, which have a small radius in computations (see are_points).
+/// A radius of 0 means points. Computations use a small radius for them (see point_radius).
 Key radius_key() {
     Key radius =
         key("discs.radius", "length",
@@ -149,7 +149,7 @@ Key packing_key() {
     return key;
 }
 
-/// The key of N, the number of discs. While only an unread file of discs could give N, it is 0.
+/// The key of N, the number of discs. N is 0 until a file of discs is read, if only the file has N.
 Key count_key() {
     Key count = key("discs.count", "discs",
                     "N, the number of discs; a list, a file, species or groups give it too.",

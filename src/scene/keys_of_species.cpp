@@ -14,8 +14,8 @@ namespace carrom {
 
 namespace {
 
-/// Appends `count` discs with the region of the row `n`, as a new run only if the region differs
-/// from the last one.
+/// Appends `count` discs with the region of the row `n`. Extends the last run if it has the same
+/// region.
 void add_region(std::vector<RegionRun>& runs, std::uint64_t count, const Numbers& n) {
     const double* const r = &n[species_row::region];
     std::optional<StartRegion> region;
@@ -60,7 +60,7 @@ void set_species(SceneParameters& scene, const Value& value) {
     }
 }
 
-/// Splits species into rows to be written. A row ends where a number, region or input row changes.
+/// Splits species into rows for output. A row ends where a number, region or row of input changes.
 class SpeciesRows {
 public:
     explicit SpeciesRows(const SceneParameters& scene)

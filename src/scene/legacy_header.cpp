@@ -53,7 +53,7 @@ void add_entry(Settings& settings, Problems& problems, const Entry& entry, std::
 void add_legacy_header(Settings& settings, Problems& problems, std::string_view text,
                        const std::string& name, bool discs_follow) {
     Place place{name, 0};
-    for (const Entry& entry : entries) // wrong until found; missing ones are reported below
+    for (const Entry& entry : entries) // marks entries as wrong until they are found
         settings.set({std::string(entry.key), place, {}, true});
     std::size_t found = 0;
     while (!text.empty() && found < entries.size()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The legacy text format has an entry per line: number of discs N, box edge L, radius r, number of
-// steps S, `print` or `perf`. N lines "id x y vx vy" may follow; the last entry is optional then.
+// steps S, `print` or `perf`. N lines "id x y vx vy" may follow; then the last entry is optional.
 #pragma once
 
 #include <string>

@@ -94,8 +94,8 @@ struct Room {
     double low = 0, high = 0;
 };
 
-/// Bounds of centres. They are wider by 2^-52 L, because L - r is rounded here and in the program
-/// that wrote the input. Discs depart when their centres are a radius beyond an open side.
+/// The bounds of centres, widened by 2^-52 L, because L - r is rounded here and in the program that
+/// wrote the input. Discs depart when their centres are a radius beyond an open side.
 Room room_along(Axis axis, const SceneParameters& scene, double radius) {
     const bool is_x = axis == Axis::x;
     const Extent walls = extent_at(scene.effects, scene.box, 0); // at time 0: walls may oscillate
@@ -109,7 +109,7 @@ Room room_along(Axis axis, const SceneParameters& scene, double radius) {
             ((is_x ? walls.x_high : walls.y_high) - inwards(low + 1)) + slack};
 }
 
-/// Text for the allowed positions of centres of discs of this radius.
+/// Describes in a message where the centres of discs of this radius may be.
 std::string room_text(const SceneParameters& scene, double radius) {
     const Box& box = scene.box;
     const bool have_open = scene.effects.have_open_boundaries();
@@ -132,8 +132,8 @@ std::string room_text(const SceneParameters& scene, double radius) {
                                                     : "");
 }
 
-/// Advice for a disc that was crossing an open side in the run from which it comes. Empty if it
-/// overlaps no closed side.
+/// Advice if a disc of `discs.from` overlaps a closed side, because the side may have been open in
+/// that run, and the disc was crossing it; empty if the disc overlaps no closed side.
 std::string hint_of_sides(const InputDisc& disc, const SceneParameters& scene, double radius) {
     if (scene.discs_from.empty()) return "";
     const std::array<double, 4> beyond = {-disc.x, disc.x - scene.box.x, -disc.y,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The range of numbers in a scene. Sizes and speeds stay within 2^+-250, so that no product of the
+// The ranges of numbers in a scene. Sizes and speeds stay within 2^+-250, so that no product of the
 // method can overflow or underflow (docs/understanding/method.md, section 4.4). Lengths are at
 // least 2^-230, because otherwise discriminants of near grazes would be denormal.
 #pragma once
@@ -22,15 +22,15 @@ inline constexpr std::int64_t largest_steps = std::int64_t{1} << 53;
 inline constexpr double largest_packing = 0.9069;
 /// Random insertion slows down above this packing, and jams at about 0.54
 inline constexpr double largest_random_packing = 0.5;
-/// Most micro-steps between syncs in single precision: a float then resolves 1/2048 micro-step
+/// Most micro-steps between syncs in single precision, because floats up to 4096 resolve 1/2048
 inline constexpr std::int64_t longest_single_sync = 4096;
 inline constexpr double smallest_single_size = 0x1p-40,
                         largest_single_size = 0x1p+40; ///< floats can hold third powers of both
 /// Largest ratio of the box's longer edge to the smallest radius r. Positions are then rounded by
-/// 1e-10 r, a hundredth of the tolerance for contacts with walls, 1e-8 r.
+/// about 1e-10 r, a hundredth of the tolerance for contacts with walls, 1e-8 r.
 inline constexpr double largest_box_in_radii = 1e6;
 inline constexpr double longest_drag = 4; ///< limit of drag's rate times the time between syncs
-/// How often a disc may cross the box in a micro-step, so that times of collisions stay distinct
+/// The most crossings of the box in a micro-step, so that collision times of a disc stay distinct
 inline constexpr double most_crossings = 0x1p40;
 
 /// The largest sum of the radii of a fixed body and a disc, in units of the period, so that a disc
@@ -42,10 +42,10 @@ bool are_pairs_lossy(const Effects& effects);
 /// Whether discs may come to rest on each other, or on a wall, so that a contact time is needed.
 bool lose_energy_or_fall(const Effects& effects);
 
-/// A text about what is wrong with a velocity component; empty if it is valid.
+/// What is wrong with a velocity component; empty if it is valid.
 std::string velocity_problem(double component);
 
-/// Why a speed is too high for the scene's box and method; empty if it is not. The box may be 0.
+/// Why a speed is too high for the scene's box and method; empty if it is not, or if the box is 0.
 std::string speed_problem(double speed, const SceneParameters& scene);
 
 /// A warning if discs are so fast that the scene's speeds may have a wrong unit; otherwise empty.

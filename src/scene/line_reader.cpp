@@ -42,8 +42,8 @@ void LineReader::take(std::size_t n_bytes) {
     bytes_left_ -= std::min<std::uint64_t>(n_bytes, bytes_left_);
 }
 
-/// The number of characters before the first line end in the buffer, or in the whole buffer if it
-/// has none. The first `searched` characters are known to have none.
+/// The length of the next line in the buffer, or of all unread text if that has no line end. The
+/// first `searched` characters are known to have no line end.
 std::size_t LineReader::find_line_end(std::size_t searched) const {
     const char* first = buffer_.data() + begin_;
     const std::size_t available = end_ - begin_;

@@ -20,13 +20,13 @@ public:
     static constexpr std::size_t most_skipped = std::size_t{64} << 20;
     static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
-    /// `lines_before`: the number of lines read before, which is added to line numbers. Lines that
-    /// begin after the next `n_bytes` bytes are left out. The stream must outlive the reader.
+    /// `lines_before`: the number of lines of the stream before this point, for line numbers. Only
+    /// lines that begin in the next `n_bytes` bytes are read. The stream must outlive the reader.
     LineReader(std::istream& stream, std::int64_t lines_before, std::uint64_t n_bytes = no_limit);
 
-    /// Gives the next line without its line end; false at the end of the stream. `line` is valid
-    /// until the next call. Of a line longer than `longest_line` the rest is skipped; if the rest
-    /// has more than `most_skipped` characters, the stream counts as ended.
+    /// Sets `line` to the next line, without its line end; returns false at the end of the stream.
+    /// `line` is valid until the next call. If a line is longer than `longest_line`, its rest is
+    /// skipped; if the rest has more than `most_skipped` characters, no more lines are read.
     bool next(std::string_view& line);
 
     std::int64_t line_number() const { return line_number_; }

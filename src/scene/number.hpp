@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads numbers from text by std::from_chars: exactly, and in the same way in every locale. The
-// number must fill the whole text.
+// Reads numbers from text by std::from_chars, which rounds correctly and does not depend on the
+// locale. The number must fill the whole text.
 #pragma once
 
 #include <cstdint>

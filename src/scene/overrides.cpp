@@ -26,7 +26,7 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given, 
     const bool lists_discs = list_discs(given);
     if (lists_discs) settings.remove("discs.generator");
     SceneParameters chosen;
-    chosen.draws_velocities = were_listed; // because listed discs may keep the input's speed
+    chosen.draws_velocities = were_listed; // so that listed discs keep the input's speed
     if (given.is_right("discs.generator"))
         find_key("discs.generator")->set(chosen, given.find("discs.generator")->value);
     else if (lists_discs)
@@ -39,8 +39,8 @@ void remove_keys_of_other_generators(Settings& settings, const Settings& given, 
     });
 }
 
-/// Stores the valid settings in scenes. Lists of rows are left out, because they are long, and so
-/// are the keys of tables that a scene may lack.
+/// Stores the valid settings in each scene. Lists of rows are left out, because they are long, and
+/// so are the keys of optional tables.
 void take_right_values(const std::vector<Setting>& all,
                        std::initializer_list<SceneParameters*> scenes) {
     for (const Setting& one : all) {
@@ -55,8 +55,8 @@ void take_right_values(const std::vector<Setting>& all,
     }
 }
 
-/// Removes keys of the input that have no meaning with a word of the command line, and keys that
-/// need a removed key. For example, kind = "langevin" removes the strength of kicks.
+/// Removes keys of the input that have no meaning with a word given on the command line, and keys
+/// that need a removed key. For example, kind = "langevin" removes the strength of kicks.
 void remove_keys_of_other_kinds(Settings& settings, const Settings& given) {
     const auto has_word_for = [&given](const Key& other) {
         return std::any_of(given.all().begin(), given.all().end(), [&other](const Setting& one) {
@@ -79,7 +79,7 @@ void remove_keys_of_other_kinds(Settings& settings, const Settings& given) {
     }
 }
 
-/// Reports wrong values in the input even if the command line replaces these settings.
+/// Reports wrong values in the input even if the command line replaces them.
 void check_replaced(Settings& settings, const Settings& given, Problems& problems) {
     for (Setting& setting : settings.all()) {
         const Key* key = find_key(setting.key);
@@ -88,8 +88,8 @@ void check_replaced(Settings& settings, const Settings& given, Problems& problem
     }
 }
 
-/// Some keys, such as 'discs.radius', are either a value or a table. The form on the command line
-/// replaces the other form in the input.
+/// Some keys, such as 'discs.radius', are either a value or a table. If the command line gives one
+/// form, this removes the other form from the input.
 void remove_other_forms(Settings& settings, const Settings& given) {
     std::erase_if(settings.all(), [&given](const Setting& one) {
         const Key* key = find_key(one.key);
@@ -138,7 +138,7 @@ std::string unquoted(const std::string& word) {
     return is_quoted ? word.substr(1, word.size() - 2) : word;
 }
 
-/// Accepts `table={key = value}` for `table.key=value`, as scenes do.
+/// Adds the settings in `table={key = value}`, which means `table.key=value`, as in scenes.
 void add_inline_table(Settings& given, Problems& problems, const Place& place,
                       const std::string& name, const std::string& text) {
     const auto values = parse_table(text);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Places (positions) in users' coordinates, which begin at `box.origin`, and internal ones, which
 // begin at the lower left corner of the box. Scenes, texts, messages and tables use the former.
-// States and the raw data of files use the latter, so that no bit of a run depends on the
+// States and files of raw data use the latter, so that no bit of a run depends on the
 // origin.
 //
 // A key declares which of its numbers are places: by `place_along`, or by the names in the form of
@@ -28,7 +28,7 @@ bool has_places(const Key& key);
 /// Adds dx or dy to all coordinates in the value of `key`, whose form must have been checked.
 void move_places(const Key& key, Value& value, double dx, double dy);
 
-/// Computes an origin that is given as "centre": half the edges of the box, which are 0 if wrong.
+/// Sets the coordinates of an origin that is given as "centre"; they are 0 if the box is not valid.
 void find_origin(SceneParameters& scene);
 
 /// The shortest decimal of `place` in users' coordinates from which it can be read back exactly.

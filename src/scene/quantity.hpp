@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The declaration of a quantity of [output.measurements]: its keys, rules of conflict, checks, and
-// text for the pages. The code that measures it is in a higher module, src/measure, and so is its
-// declaration. A program that measures stores the declarations here when it starts. The reader, the
+// text for the pages. The declarations are in a higher module, src/measure, with the code that
+// measures. A program that measures stores the declarations here when it starts. The reader, the
 // pages and the general checks loop over the list, so they need not name any quantity.
 #pragma once
 
@@ -32,8 +32,8 @@ void declare_quantities(std::vector<Quantity> quantities);
 
 const std::vector<Quantity>& declared_quantities();
 
-/// The key that lists the quantities to measure. A problem with a setting of a quantity that the
-/// scene does not contain is reported at this key.
+/// The key that lists the quantities to measure. Problems of a quantity are reported at this key if
+/// the scene does not contain the quantity's own keys.
 inline constexpr std::string_view quantities_key = "output.measurements.quantities";
 
 inline bool measures(const SceneParameters& scene, std::string_view quantity) {

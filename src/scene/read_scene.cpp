@@ -68,8 +68,8 @@ bool skip_blank(std::istream& stream, std::int64_t& n_lines) {
     return false;
 }
 
-/// Whether the next line begins with a number, so that it is a line of discs: legacy texts may have
-/// no `print` or `perf` between the number of steps and the discs.
+/// Whether the next line begins with a digit. Then it is the first disc, because legacy texts may
+/// have no `print` or `perf` between the number of steps and the discs.
 bool begins_a_disc(std::istream& stream, std::int64_t& n_lines) {
     if (!skip_blank(stream, n_lines)) return false;
     const int c = stream.peek();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reads checked `SceneParameters` from an input's text (docs/reference/keys.md). Uses no MPI: rank
-// 0 reads the file, and every rank reads the same text, so all find the same scene or the same
+// 0 reads the file, and every rank parses the same text, so all find the same scene or the same
 // problems.
 //
 // A file whose name ends in `.toml` is a TOML scene. All other input has the legacy text format.
@@ -27,8 +27,8 @@ struct SceneText {
     std::string text;
     std::int64_t lines_before_discs = 0; ///< legacy text: number of lines read from the stream
     bool discs_follow = false;           ///< legacy text: the stream continues with lines of discs
-    /// The columns of discs, set when the scene is known to have any (`discs.columns`). Before
-    /// that, sizes are not checked
+    /// The numbers in the columns of `discs.columns`. If the scene has such columns, sizes are not
+    /// checked before this is set
     std::optional<DiscColumns> columns{};
 };
 
@@ -45,9 +45,9 @@ SceneText read_scene_text(std::istream& stream, const std::string& name);
 /// same scene or the same InputError.
 SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides = {});
 
-/// Reads a scene, but appends the problems to `problems`, in the order of lines. If there are
-/// any, the scene serves only for `disc_line_problems`, because wrong values are 0 or the
-/// default.
+/// Like the function above, but appends problems to `problems`, in the order of lines, and does not
+/// throw. If there are problems, use the scene only for `disc_line_problems`, because wrong values
+/// are 0 or the default.
 SceneParameters read_scene(const SceneText& input, const std::vector<std::string>& overrides,
                            std::vector<Problem>& problems);
 

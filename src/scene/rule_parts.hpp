@@ -22,7 +22,7 @@ inline bool has_fixed_bodies(const SceneParameters& s) {
     return s.effects.fixed_bodies.are_any() || s.freezes();
 }
 inline bool has_effects(const SceneParameters& s) { return s.effects.are_any() || s.freezes(); }
-/// The missing condition, after the words "has no meaning".
+/// Ends the message "... has no meaning ..." for keys that need an obstacle.
 inline constexpr const char* no_obstacles =
     "without 'effects.obstacles.discs', 'segments', 'arcs', 'polygons' or a 'box.shape'";
 inline bool has_growing_discs(const SceneParameters& s) { return s.effects.growth != 0; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The features that cannot be combined. Both the check and the page of conflicts use this list.
+// The list of features that cannot be combined. The check and the page of conflicts use it.
 #include <utility>
 
 #include "scene/boundaries/boundary.hpp"

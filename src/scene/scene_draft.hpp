@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene that is being read: its known part, the settings, and the problems so far. All problems
+// A scene that is being read: its values, its settings, and the problems so far. All problems
 // are reported together, so checks continue after the first problem.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace carrom {
 
-/// The key at which rules and checks of measurements report problems.
+/// The key at which rules and checks report problems of measurements.
 inline constexpr std::string_view quantities = "output.measurements.quantities";
 
 struct SceneDraft {
@@ -55,8 +55,8 @@ struct SceneDraft {
                 what(*numbers, number, Place{setting->place.name, row.line});
         }
     }
-    /// Adds "row 2 of 'key': ..." for the first rows whose fault(row) is not empty, and the number
-    /// of further such rows.
+    /// Adds the problem "row 2 of 'key': ..." for the first rows for which fault(row, index) is not
+    /// empty, and the number of further such rows. The first row has index 0.
     template <class Fault> void refuse_rows(std::string_view key, const Fault& fault) const {
         constexpr std::size_t most_listed = 20;
         std::size_t n_wrong = 0;
@@ -94,7 +94,7 @@ void check_rows_of_list(const SceneDraft& draft);
 void check_times(const SceneDraft& draft);
 
 /// Reports a contact time of more than `longest` steps, if discs may come to rest and so need a
-/// contact time. `why` says in the message what `longest` is.
+/// contact time. `why` describes `longest` in the message.
 void limit_contact_time(const SceneDraft& draft, double longest, std::string_view why);
 
 } // namespace carrom

@@ -56,7 +56,7 @@ struct NumberRun {
 
     friend bool operator==(const NumberRun&, const NumberRun&) = default;
 };
-/// The initial numbers of side columns, in the order of ids; empty for a column that is not given.
+/// The initial numbers of side columns, in order of id; empty for a column that is not given.
 using FirstNumbers = BySideColumn<std::vector<NumberRun>>;
 
 /// The columns that a line of discs may have. Side columns follow from `first_side` on.
@@ -72,8 +72,8 @@ constexpr SideColumn side_column_of(DiscColumn column) {
                                    static_cast<std::size_t>(DiscColumn::first_side));
 }
 
-/// The point of the box, relative to its lower left corner, that has the coordinates (0, 0) for
-/// users. All computations begin at the corner (scene/places.hpp).
+/// The point that has the coordinates (0, 0) for users, relative to the lower left corner of the
+/// box. In computations this corner is (0, 0) (scene/places.hpp).
 struct Origin {
     double x = 0, y = 0;
     bool is_centre = false; ///< the centre of the box; x and y are set when the box is known
@@ -89,7 +89,7 @@ struct Stream {
     double vx = 0, vy = 0;
 };
 
-/// A rectangle in which discs start as a whole, or with their centres in the case of `freeze`.
+/// A rectangle that contains discs at the start: as a whole, or for `freeze` only their centres.
 struct StartRegion {
     double x_low = 0, y_low = 0, x_high = 0, y_high = 0;
 
@@ -121,7 +121,7 @@ struct FrozenDisc {
     friend bool operator==(const FrozenDisc&, const FrozenDisc&) = default;
 };
 
-/// Each rank writes its own discs, or MPI-IO chooses ranks that write for all ranks.
+/// Who writes a checkpoint: each rank its own discs, or for all ranks some that MPI-IO chooses.
 enum class Transfers { independent, collective };
 
 /// `[output.checkpoint]`: when and where the state is stored, besides at the end and on a signal.
@@ -151,7 +151,7 @@ struct CollisionOutput {
     std::string file;
 };
 
-/// `[output.measurements]`: the quantities that are sampled during the run, and the folder of
+/// `[output.measurements]`: the quantities that are sampled during the run, and the folder of their
 /// tables. Quantities and their settings have the names of their declarations (scene/quantity.hpp).
 struct MeasurementOutput {
     struct Number {
@@ -176,7 +176,7 @@ struct MeasurementOutput {
     void derive(const std::string& setting, double value) { settings[setting] = {value, false}; }
 };
 
-/// `[time.stop]`: ends a run before its last step, at the end of a step with a sync.
+/// `[time.stop]`: conditions that end a run early. They are tested after steps that have a sync.
 struct StopConditions {
     std::optional<std::int64_t> collisions, departed; ///< counts since step 0
     std::optional<double> temperature_below, temperature_above;
@@ -201,7 +201,7 @@ struct SceneParameters {
     Origin origin;           ///< the point that is (0, 0) for users; not used by computations
     double radius = 0;       ///< radius of the largest disc
     bool are_points = false; ///< the scene has the radius 0; `radius` is then point_radius(box)
-    std::optional<SizeDistribution> sizes; ///< distribution of radii; species are made from it
+    std::optional<SizeDistribution> sizes; ///< distribution of radii; determines the species
     std::uint64_t n_discs = 0;
 
     Generator generator = Generator::random;
@@ -210,7 +210,7 @@ struct SceneParameters {
     std::string discs_from; ///< path of an HDF5 file with the discs, relative to the scene
     std::optional<std::int64_t> discs_from_step; ///< step of the frame; unset: the last frame
     double speed = 1;                            ///< mass-weighted root mean square of drawn speeds
-    std::optional<double> temperature;           ///< kT of generated discs, instead of the speed
+    std::optional<double> temperature;           ///< kT of drawn velocities, instead of the speed
     VelocityKind velocities = VelocityKind::maxwell;
     /// Velocities of listed discs are drawn, because the scene gives `discs.speed` or
     /// `discs.temperature` for the list
@@ -221,15 +221,15 @@ struct SceneParameters {
     std::uint64_t seed = 3210;
     std::vector<Stream> streams;
     std::optional<StartRegion> region; ///< region for discs without a region of their own
-    /// Regions of species or groups, in the order of ids; empty if there are none
+    /// Regions of species or groups, in order of id; empty if there are none
     std::vector<RegionRun> regions;
     bool has_shares = false; ///< whether rows of `discs.species` give shares in place of counts
-    /// Groups by species, in the order of ids; they cover all discs, or the list is empty
+    /// Groups by species, in order of id; every disc is in a group, or the list is empty
     std::vector<DiscGroup> groups;
     /// Discs that start with their centres in these regions become fixed bodies
     std::vector<StartRegion> freeze;
-    /// Frozen discs in the order of ids. When they are known, they are fixed bodies of the scene,
-    /// and its counts of discs do not include them
+    /// Frozen discs in order of id. Once they are known, they are fixed bodies of the scene, and
+    /// its counts of discs do not include them
     std::vector<FrozenDisc> frozen;
     std::vector<InputDisc> listed_discs;  ///< discs written in the scene itself (`discs.list`)
     std::vector<DiscColumn> disc_columns; ///< `discs.columns`; see columns_of_lines

@@ -10,7 +10,7 @@ namespace carrom {
 
 namespace {
 
-/// The scene with the same tables, and all keys at their defaults.
+/// A scene that has the same tables as `scene`, but all keys at their defaults.
 SceneParameters with_defaults(const SceneParameters& scene) {
     SceneParameters plain;
     for (const Table& table : tables())
@@ -36,7 +36,7 @@ std::string scene_text(const SceneParameters& scene) {
                 lines += fmt::format("{} = {}\n", key.name.substr(table.name.size() + 1),
                                      toml_text(key, value));
         }
-        // A table's name alone is written if the scene may lack it, so that the reader creates it.
+        // An optional table is written even if it has no lines, so that the reader creates it.
         if (!lines.empty() || table.is_optional())
             text += fmt::format("[{}]\n{}", table.name, lines);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The settings of an input, key by key, before anything is checked. They are the common
 // form of TOML scenes, legacy text and `--set key=value`. Each setting contains its
-// place, so that every problem can name its line.
+// file and line, so that error messages can name them.
 #pragma once
 
 #include <algorithm>

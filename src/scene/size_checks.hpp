@@ -10,7 +10,8 @@ namespace carrom {
 /// discs may still be unknown.
 void check_rivals_of_sizes(const SceneDraft& draft);
 
-/// Whether radii can be computed: keys are valid, mean or packing is given, and limits leave radii.
+/// Whether radii can be computed: keys are valid, the mean or the packing is given, and the limits
+/// contain radii. Reports other cases.
 bool check_distribution(const SceneDraft& draft);
 
 } // namespace carrom

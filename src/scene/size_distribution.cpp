@@ -11,9 +11,9 @@ namespace carrom {
 
 namespace {
 
-constexpr double widest_deviations = 3; ///< default limits, in standard deviations from the middle
-/// In a range of more than `widest_range` deviations, cells would be too coarse for the density. So
-/// it is cut `end_of_density` deviations from the middle, where the density is negligible.
+constexpr double widest_deviations = 3; ///< default |limit - middle|, in standard deviations
+/// If limits are over `widest_range` standard deviations apart, cells would be too coarse. Then the
+/// range is cut at `end_of_density` deviations from the middle, where the density is negligible.
 constexpr double widest_range = 64, end_of_density = 12;
 /// Below this polydispersity s, the rounded sum 1 + s^2 loses too many digits of s^2.
 constexpr double narrow = 0x1p-13;
@@ -33,7 +33,7 @@ double logarithm(double x) {
     return y;
 }
 
-/// The variable x in which the density is a simple function: the radius, or its logarithm.
+/// The variable x in which the density is uniform or Gaussian: the radius, or its logarithm.
 struct Measure {
     double middle = 1, deviation = 0;
     bool is_logarithm = false, is_flat = false;
@@ -51,8 +51,8 @@ struct Measure {
 Measure measure_of(const SizeDistribution& sizes) {
     const double s = sizes.polydispersity;
     if (sizes.kind != SizeKind::lognormal) return {1, s, false, sizes.kind == SizeKind::uniform};
-    // The variance of the logarithm; the middle is chosen so that radii have the mean 1.
-    if (s < narrow) { // avoids the loss of digits by the series of log(1 + s^2)
+    // The deviation is that of the logarithm. The middle is chosen so that radii have the mean 1.
+    if (s < narrow) { // the series of log(1 + s^2) keeps more digits
         const double per_square = 1 - s * s * (0.5 - s * s / 3);
         return {-s * s * per_square / 2, s * std::sqrt(per_square), true, false};
     }
@@ -72,7 +72,7 @@ SizeLimits size_limits(const SizeDistribution& sizes) {
     const double reach = reach_of(sizes);
     const double low = measure.radius_of(measure.middle - reach * measure.deviation),
                  high = measure.radius_of(measure.middle + reach * measure.deviation);
-    // A uniform distribution ends at its own limits; wider limits would change its deviation.
+    // A uniform distribution ends at its own limits; wider limits would make it wider.
     if (sizes.kind == SizeKind::uniform)
         return {std::max(low, sizes.smallest.value_or(low)),
                 std::min(high, sizes.largest.value_or(high))};
@@ -89,7 +89,7 @@ double share_within_limits(const SizeDistribution& sizes) {
     };
     const double low = score(sizes.smallest, -reach), high = score(sizes.largest, reach);
     if (measure.is_flat) return (std::min(high, reach) - std::max(low, -reach)) / (2 * reach);
-    // The difference of the tails on the side where both are small, because it keeps more digits.
+    // Tails are subtracted on the side where both are small, because this keeps more digits.
     const auto tail = [](double z) { return std::erfc(z / std::numbers::sqrt2) / 2; };
     return low > 0 ? tail(low) - tail(high) : tail(-high) - tail(-low);
 }

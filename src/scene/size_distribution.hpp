@@ -5,7 +5,7 @@
 // species with the median radius of the part. So two seeds have the same radii and differ only by
 // positions and velocities. With a thousand parts the cumulative distribution differs from the
 // exact one by less than 0.001. Each disc's radius and mass are found by its id, with a table of 2
-// bytes a disc on every rank (species.hpp).
+// bytes per disc on every rank (species.hpp).
 //
 // Quantiles are computed from a sum of the density, with + - * / and sqrt only, so they have the
 // same bits on every machine. The error functions of libraries differ between machines, and so
@@ -29,11 +29,11 @@ struct SizeDistribution {
     /// Standard deviation relative to the mean, before limits cut the distribution
     double polydispersity = 0;
     std::optional<double> smallest, largest; ///< limits relative to the mean
-    /// How masses follow from radii: by area, with mass 1 at the mean radius, or all equal to 1
+    /// Masses are proportional to areas, with mass 1 at the mean radius, or all masses are 1
     MassKind mass = MassKind::area;
 };
 
-/// The largest number of parts.
+/// The largest number of parts of equal probability, and so of species.
 constexpr std::uint64_t most_size_parts = 1000;
 
 /// The limits of radii, in units of the mean. By default, normal and lognormal distributions are

@@ -19,7 +19,7 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 4> sources = {
      {"packing", species_row::packing},
      {"share", species_row::share},
      {"share_of_area", species_row::share_of_area}}};
-constexpr double largest_fault = 1e-9; ///< largest deviation of the sum of shares from 1
+constexpr double largest_fault = 1e-9; ///< allowed deviation of the sum of shares from 1
 
 /// Why the number of discs of a row cannot be computed; empty if it can.
 std::string problem_of(const Numbers& row) {
@@ -35,8 +35,8 @@ std::string problem_of(const Numbers& row) {
     return first.empty() ? "it needs count, packing, share or share_of_area" : "";
 }
 
-/// Splits n in proportion to weights whose sum is 1, into the nearest whole numbers whose sum is
-/// n.
+/// Splits n into whole numbers that are proportional to the weights, except for rounding. Their sum
+/// is n; the sum of the weights must be 1.
 std::vector<double> split(double n, const std::vector<double>& weights) {
     std::vector<double> parts, rests;
     for (const double weight : weights) {
@@ -130,7 +130,7 @@ private:
         return true;
     }
 
-    /// The number of all discs, to which shares refer; 0 if it is unknown, which is reported.
+    /// The number of all discs, to which shares refer; 0 if it is unknown, which is an error.
     double number_of_all(const std::vector<double>& weights) {
         const bool has_count = draft_.settings.has("discs.count");
         const Setting* packing = draft_.settings.find("discs.packing");
@@ -163,7 +163,7 @@ private:
                                row[0], largest_count);
         });
         const bool are_right = draft_.problems.size() == n_problems;
-        for (Numbers* row : rows_) // removed if one is wrong, so that no other check reports it
+        for (Numbers* row : rows_) // if one is wrong, all are removed, so checks report it once
             if (!are_right) (*row)[0] = not_given;
         return are_right;
     }

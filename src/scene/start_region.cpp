@@ -18,7 +18,7 @@ namespace carrom {
 
 namespace {
 
-/// The number, largest radius and covered area of the discs that begin in one region.
+/// The number, largest radius and covered area of the discs that start in one region.
 struct Crowd {
     std::uint64_t count = 0;
     double largest = 0, area = 0;
@@ -40,7 +40,7 @@ void add_discs(Crowd& crowd, const SceneParameters& scene, DiscId first, DiscId 
     }
 }
 
-/// The discs in each region where discs begin. Species with equal regions are counted together.
+/// The discs of each start region. Species with equal regions are counted together.
 std::vector<std::pair<StartRegion, Crowd>> crowds_of(const SceneParameters& scene) {
     std::vector<RegionRun> runs = scene.regions;
     if (runs.empty()) runs.push_back({scene.n_discs, scene.region});

@@ -9,8 +9,8 @@
 
 namespace carrom {
 
-/// The rectangle that must contain disc `id` as a whole at the start; nothing if it may be anywhere
-/// in the box.
+/// The rectangle that must contain the whole disc `id` at the start; nothing if the disc may be
+/// anywhere in the box.
 std::optional<StartRegion> region_of(const SceneParameters& scene, DiscId id);
 
 bool has_regions(const SceneParameters& scene);

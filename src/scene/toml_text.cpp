@@ -13,7 +13,7 @@ namespace carrom {
 
 namespace {
 
-/// The most parts of a key, because the parser recurses for each part; scenes need three.
+/// Limits the parts of a key, because the parser recurses for each part; scenes need three.
 constexpr int most_parts = 32;
 constexpr std::size_t most_unknown = 20; ///< unknown keys beyond this number are only counted
 
@@ -42,8 +42,8 @@ Value to_value(const toml::node& node) {
     return value;
 }
 
-/// The position after a string that begins at `at`; a string without an end extends to the end of
-/// the text.
+/// The position after a string that begins at `at`. A string that is not closed ends with its line,
+/// or with the text if it began with three quotes.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
     const char quote = text[at];
     const std::string_view three = quote == '"' ? "\"\"\"" : "'''";
@@ -131,7 +131,7 @@ void forget_lines(Value& value) {
         for (auto& [name, one] : *values) forget_lines(one);
 }
 
-/// The value of `--set`; nothing if the text is not a value.
+/// Parses a value of `--set`; returns nothing if the text is not a value.
 std::optional<Value> parse_any(const std::string& text) {
     const std::string line = "value = " + text;
     if (text.find('\n') != std::string::npos || line_of_deep_key(line) > 0) return std::nullopt;

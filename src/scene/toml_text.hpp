@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// Adds the settings of a text. Returns false if it is not valid TOML, so that no key is known.
+/// Adds the settings of a text. If it is not valid TOML, adds none, and returns false.
 bool add_toml(Settings& settings, Problems& problems, std::string_view text,
               const std::string& name);
 
@@ -22,7 +22,7 @@ std::optional<Value> parse_value(const Key& key, const std::string& text);
 /// Reads an inline table of `--set`. Returns nothing if the text is not a table.
 std::optional<NamedValues> parse_table(const std::string& text);
 
-/// The checked value in TOML's syntax; when it is read again, numbers have the same bits.
+/// The checked value in TOML's syntax. If it is read again, numbers have the same bits.
 std::string toml_text(const Key& key, const Value& value);
 
 } // namespace carrom

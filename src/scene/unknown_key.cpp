@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// The index of the name nearest to `name`, or nothing if none is near enough to be meant.
+/// The index of the name that is most similar to `name`, or nothing if none is similar enough.
 std::optional<std::size_t> nearest_of(std::string_view name,
                                       std::span<const std::string_view> names) {
     name = name.substr(0, 200);
@@ -57,7 +57,7 @@ std::vector<std::string_view> names_in(std::string_view table, bool is_known) {
     return names;
 }
 
-/// A text that lists the names in `table`, or in the next outer table if `table` does not exist.
+/// Text that lists the names in `table`, or in the next outer table if `table` does not exist.
 std::string what_there_is(std::string_view table) {
     while (!table.empty() && !find_table(table)) table = table_of(table);
     if (table.empty())
@@ -127,7 +127,7 @@ std::string unknown_key_text(std::string_view key, const Value& value) {
     const bool is_known = !table.empty() && find_table(table);
     const std::vector<std::string_view> names = names_in(table, is_known);
     std::vector<std::string_view> compared = names;
-    if (is_known || table.empty()) // a key without a table, whose table may be missing in the text
+    if (is_known || table.empty()) // the user may have left out the table
         std::transform(names.begin(), names.end(), compared.begin(), last_of);
     const auto nearest = nearest_of(is_known ? last_of(key) : key, compared);
     return "no such key " + in_quotes(key) +

@@ -10,8 +10,8 @@
 
 namespace carrom {
 
-/// The message for an unknown key: the new name of a renamed key (and of its `value`), or the
-/// nearest name by edit distance, or the existing names.
+/// The message for an unknown key. It contains the new name of a renamed key (and of its `value`),
+/// or advice, or the most similar name by edit distance, or all existing names.
 std::string unknown_key_text(std::string_view key, const Value& value);
 
 /// The advice for a key that users may expect but Carrom lacks; empty for other keys.
@@ -24,7 +24,7 @@ std::string table_text(std::string_view key, const Value& value);
 /// every name differs in more than one letter and in more than a third of the letters.
 std::string guess(std::string_view name, std::span<const std::string_view> names, char quote);
 
-/// Least number of insertions, deletions, replacements and swaps of adjacent letters from a to b.
+/// Least number of letters to insert, delete, replace or swap with the next one to turn a into b.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 } // namespace carrom

@@ -20,10 +20,10 @@ namespace carrom {
 namespace {
 
 constexpr double first_packing = 0.3; ///< packing of the random gas
-/// Relative growth of radii in one stretch: the first, the largest, and the largest share of the
-/// room. The room is the share by which radii can still grow before discs jam.
+/// Relative growth of radii in one stretch: that of the first stretch, the largest one, and the
+/// largest one relative to the room. The room is the relative growth at which discs would jam.
 constexpr double first_growth = 0.01, most_growth = 0.05, share_of_room = 0.1;
-/// Discs count as jammed below this room; the pressure is about n kT / room, with n discs per area.
+/// Discs count as jammed below this room; the pressure is about n kT / room, with the density n.
 constexpr double jammed_room = 1e-6;
 /// Radii grow by this share more than required, so that rounding leaves no overlap.
 constexpr double margin = 0x1p-30;
@@ -79,9 +79,9 @@ private:
         return scene;
     }
 
-    /// Runs one stretch. The root mean square speed of `discs_` is 1 before and after it.
-    /// discs.growth_rate sets how far they fly. Returns the share by which radii can still grow
-    /// before discs jam, from the heating: if gaps shrink from a to b, speeds grow by a factor a/b.
+    /// Runs one stretch and returns the room. The root mean square speed of `discs_` is 1 before
+    /// and after it. discs.growth_rate determines how far discs fly in a stretch. The room follows
+    /// from the heating: if gaps shrink from a to b, speeds grow by a factor a/b.
     double run_stretch() {
         const double speed = 2 * scene_.radius * size_ * growth_ / scene_.compression_rate;
         for (InputDisc& disc : discs_) disc.vx *= speed, disc.vy *= speed;

@@ -22,9 +22,9 @@ CellSizes cell_sizes(const DiscSystem& system) {
     return sizes;
 }
 
-/// Finds psi6 of all discs of the view that are at most `reach_beyond` from own discs. If
-/// `ids_apart` is not 0, only finds psi6 of own discs whose id is a multiple of it. The returned
-/// view is valid until `forget_images`. **Collective.**
+/// Computes psi6 of all discs of the view that are at most `reach_beyond` from own discs or, if
+/// `ids_apart` is not 0, only of own discs whose id is a multiple of it. The returned view is valid
+/// until `forget_images`. **Collective.**
 LocalView find_orders(DiscSystem& system, double reach_beyond, std::uint64_t ids_apart,
                       std::vector<BondOrder>& orders) {
     const Extent box = system.box();

@@ -19,7 +19,7 @@ namespace carrom {
 
 namespace {
 
-/// Largest number of discs in a part of a list, because a part's memory is freed as a whole.
+/// Largest number of discs in a part of the input; a part's memory can only be freed as a whole.
 constexpr std::size_t discs_in_part = 1 << 16;
 /// Number of halo discs for which memory is reserved, divided by the square root of the number of
 /// own discs: 32 layers of discs at each of four sides. Without this reserve all discs would be
@@ -40,8 +40,8 @@ std::vector<std::vector<InputDisc>> in_parts(std::vector<InputDisc> discs) {
     return parts;
 }
 
-/// Makes the state at step 0, and frees inputs meanwhile. Otherwise the two together would be the
-/// run's peak of memory.
+/// Makes the state at step 0, and frees the inputs meanwhile. Otherwise the two together would need
+/// the most memory of the whole run.
 StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inputs) {
     const auto k = static_cast<double>(scene.micro_steps);
     const double rate_unit = scene.velocities == VelocityKind::reversed ? -k : k;
@@ -51,7 +51,7 @@ StoredState first_state(const SceneParameters& scene, std::vector<InputDisc> inp
     std::vector<std::vector<InputDisc>> parts = in_parts(std::move(inputs));
     state.discs.reserve(
         n + static_cast<std::size_t>(halo_per_root * std::sqrt(static_cast<double>(n))));
-    // Frees inputs from the end, so that the heap can shrink
+    // Begins with the last inputs, so that the heap can shrink when they are freed
     for (; !parts.empty(); parts.pop_back()) {
         for (const InputDisc& input : parts.back()) {
             DiscState& disc = state.discs.emplace_back(DiscState{});
@@ -79,7 +79,7 @@ std::unique_ptr<Engine> engine_for(const SceneParameters& scene, StoredState sta
     return make_time_stepped_engine(scene, std::move(state), communicator, tuning);
 }
 
-/// Estimates the largest speed usual in the run, per micro-step; the same on all ranks.
+/// Estimates the largest speed that is usual in the run, per micro-step. Equal on all ranks.
 double usual_speed(const SceneParameters& scene, std::span<const DiscState> own,
                    const Communicator& ranks) {
     const Effects& effects = scene.effects;

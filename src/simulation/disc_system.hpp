@@ -37,8 +37,8 @@ public:
                const Tuning& tuning);
     ~DiscSystem();
 
-    /// Runs the scene to `last_step`, or less far, to the first step that ends at or after the next
-    /// sync, because reading the state is fast there. Runs at least one step if
+    /// Runs the scene to `last_step` or, if that is earlier, to the first step that ends at or
+    /// after the next sync, because reading the state is fast there. Runs at least one step if
     /// `last_step` is later than `step()`. **Collective.**
     void advance_towards(std::int64_t last_step);
 
@@ -49,7 +49,7 @@ public:
     /// its own on the scale of `clock()`. Discs that have left the box are included
     /// (DiscState::has_departed). Valid until the next call of a member function.
     std::span<const DiscState> discs() const;
-    /// The side columns (core/side_columns.hpp) of `discs()`, in its order and valid as long as it.
+    /// The side columns (core/side_columns.hpp) of `discs()`, in the same order and valid as long.
     SideSpans side_columns() const;
     /// The spins, in radians per micro-step; empty if discs are not rough.
     std::span<const double> spins() const { return side_columns()[SideColumn::spin]; }
@@ -58,7 +58,8 @@ public:
     /// The species table, or null if all discs are equal.
     const SpeciesTable* species_if_mixed() const;
     double heaviest() const { return heaviest_; } ///< the largest mass of a disc
-    /// The time for DiscState::x_at: micro-steps since the last sync, or a moving frame's clock.
+    /// The time for DiscState::x_at: micro-steps since the last sync, or the clock of a moving
+    /// frame.
     double clock() const;
     /// The frame (core/frame.hpp) of the coordinates of `discs()` at `clock()`. It differs
     /// from the box's frame if discs fall or the box is periodic.
@@ -86,14 +87,14 @@ public:
     /// order. A null pointer ends the logging.
     void log_to(std::vector<Collision>* log);
 
-    /// This rank's sums of stress since construction or `begin_stress_sums`; the unit is set by
-    /// `stress_bound()`. They contain all collisions. They lack the last flights, which are added
-    /// at some of the syncs (Engine::flight_integral).
+    /// This rank's sums of stress since construction or `begin_stress_sums`; `stress_bound()`
+    /// determines their unit. They contain all collisions but lack the latest flights, which are
+    /// added only at some of the syncs (Engine::flight_integral).
     const StressSums& stress_sums() const;
     double stress_bound() const { return stress_bound_; }
     const AveragedSystem& averaged_system() const { return *averaged_system_; }
-    /// Restarts the sums of stress with the bound, and so the unit, of a checkpoint's sums. Call it
-    /// before any step.
+    /// Restarts the sums of stress with the bound of a checkpoint's sums, so that both have the
+    /// same unit. Call it before any step.
     void begin_stress_sums(double bound);
 
     /// From now on the invariants of check_failure.hpp are checked after every step:

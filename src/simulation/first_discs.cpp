@@ -17,8 +17,9 @@ namespace carrom {
 
 namespace {
 
-/// The scene of a group alone, whose box is the region of the group. `number` counts groups, so
-/// that equal groups get different random numbers. A region as long as a period is periodic, too.
+/// A scene that contains only this group and has the group's region as its box. `number` is the
+/// group's number, so that equal groups get different random numbers. A region as long as a period
+/// is periodic as well.
 SceneParameters scene_of_group(const SceneParameters& scene, const DiscGroup& group, double radius,
                                std::uint64_t number) {
     const StartRegion region = region_of(scene, group);

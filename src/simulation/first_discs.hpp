@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the initial discs of a scene, for any generator. load_places (scene_input.hpp) handles only
+// Makes the initial discs of a scene with any generator. load_places (scene_input.hpp) handles only
 // some of the generators.
 //
 // Groups are placed one after the other. Lattices and compressed discs fill their regions as if

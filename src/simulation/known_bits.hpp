@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests whether this build, on this processor, computes the same bits as others.
+// Tests whether this build, on this processor, computes the same bits as other builds.
 //
 // Not all compiler flags that change floating-point arithmetic can be detected when compiling, and
 // libraries may set modes of the processor at run time. So a program runs two small scenes, one for

@@ -10,14 +10,15 @@ namespace carrom {
 
 namespace {
 
-/// Blocks are equal to within rounding if they differ by at most this share of the largest one.
+/// Means of blocks count as equal if they differ by at most this share of the largest absolute
+/// value, which rounding explains.
 constexpr double rounding_share = 1e-10;
 /// Halves of a run are compared if each has at least this many blocks.
 constexpr std::size_t fewest_blocks_of_half = 8;
 /// Difference of the halves' means, divided by its error, beyond which a run counts as changing. In
 /// steady runs with independent blocks it is exceeded in one run of 2000.
 constexpr double most_deviations = 4;
-/// A run with fewer independent blocks counts as changing, because its blocks follow a trend.
+/// A run counts as changing if fewer blocks than this are independent: they follow a trend.
 constexpr double fewest_independent = 3;
 
 /// 95 of 100 values of chi squared are below these numbers, for 1, 2, 3 ... degrees of freedom.
@@ -64,8 +65,8 @@ std::vector<Level> levels_of(std::span<const double> terms) {
     return levels;
 }
 
-/// The shortest blocks for which neighbours, and neighbours of all longer blocks, have no more
-/// correlation than expected by chance (Jonsson's test).
+/// The shortest blocks such that neighbouring blocks of this and of every greater length have no
+/// more correlation than chance explains (Jonsson's test).
 const Level& independent_level(std::span<const Level> levels) {
     double sum = 0;
     std::size_t chosen = levels.size() - 1;
@@ -106,15 +107,15 @@ double deviation_of_halves(std::span<const double> terms) {
     return difference > 0 ? difference / std::sqrt(square(first) + square(last)) : 0;
 }
 
-/// Whether the means of eighths of a run rise or fall throughout: at most one of 28 pairs is out of
-/// order. By chance this happens in one of 2000 steady runs (Kendall, Biometrika 30, 81 (1938)).
-/// For a trend that is steep at first this test is more sensitive than the comparison of halves.
+/// Whether the means of eighths of a run rise or fall throughout, with at most one of 28 pairs out
+/// of order. By chance this happens in one of 2000 steady runs (Kendall, Biometrika 30, 81 (1938)).
+/// For a trend that is steep at first this test is more sensitive than that of halves.
 bool are_eighths_in_order(std::span<const double> terms) {
     constexpr std::size_t n_parts = 8;
     const std::size_t length = terms.size() / n_parts;
     if (length < 2) return false;
     int rising = 0, falling = 0,
-        pairs = 0; // equal means, as for rare events, count as neither rising nor falling
+        pairs = 0; // equal means (for instance of rare events) are neither rising nor falling
     for (std::size_t last = 1; last < n_parts; ++last) {
         for (std::size_t first = 0; first < last; ++first) {
             ++pairs;
@@ -176,7 +177,7 @@ void VectorBlocks::join_pairs() {
     samples_per_block_ *= 2;
 }
 
-/// The mean of `number(values)`, which is linear in the values.
+/// The mean over samples of `number(values)`, a linear function of the values.
 template <class Number> SampledMean VectorBlocks::mean_of(const Number& number) const {
     const auto per_block = static_cast<double>(samples_per_block_),
                all = static_cast<double>(n_samples());

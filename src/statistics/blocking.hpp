@@ -27,15 +27,15 @@ constexpr std::size_t most_blocks = 128;
 /// Results for the mean of all blocks, from the means of consecutive blocks.
 struct BlockedMean {
     double error = std::numeric_limits<double>::quiet_NaN(); ///< one standard error; NaN if
-                                                             ///< blocks are few or not finite
-    /// The number of successive blocks, at least 1, that are worth one independent block.
+                                                             ///< blocks are too few or not finite
+    /// The number of successive blocks, at least 1, that count as much as one independent block.
     double blocks_per_independent = std::numeric_limits<double>::quiet_NaN();
     bool is_constant = false; ///< blocks agree to within rounding: a conserved quantity
     bool is_changing = false; ///< the run's halves differ by more than chance explains, or the
                               ///< blocks follow a trend
 };
 
-/// `terms` are the means of blocks of one length, in the order of time.
+/// `terms` are the means of blocks of one length, in order of time.
 BlockedMean blocked_mean(std::span<const double> terms);
 /// Returns only the error of blocked_mean.
 double standard_error(std::span<const double> terms);
@@ -50,8 +50,7 @@ struct SampledMean {
     bool is_constant = false, is_changing = false;
 };
 
-/// Samples of a vector, for instance of g(r) in all its bins. It needs no more than `most_blocks`
-/// vectors of memory.
+/// Samples of a vector, such as g(r) in all its bins. Memory: at most `most_blocks` vectors.
 class VectorBlocks {
 public:
     explicit VectorBlocks(std::size_t n_values = 0) : n_values_(n_values) {}
@@ -60,10 +59,10 @@ public:
     std::int64_t n_samples() const;
     std::size_t n_blocks() const { return n_values_ == 0 ? 0 : blocks_.size() / n_values_; }
 
-    /// Adds one sample of `n_values()` numbers. Samples must be equally far apart in time.
+    /// Adds one sample of `n_values()` numbers. Samples must be equally spaced in time.
     void add(std::span<const double> sample);
 
-    /// One mean for each value.
+    /// The mean of each value, with its error.
     std::vector<SampledMean> means() const;
     /// The mean of the weighted sum of all values. Its error includes correlations between values.
     SampledMean weighted_mean(std::span<const double> weights) const;

@@ -19,7 +19,7 @@ namespace {
 /// lattice.
 constexpr double shortest_side = 1e-9;
 
-/// Discs within this share of the reach are enough to complete most cells.
+/// Discs within this fraction of the reach are enough to complete most cells.
 constexpr double usual_part = 0.6;
 
 /// Position and size of another disc, relative to the disc whose cell is computed.
@@ -43,8 +43,8 @@ public:
         if (view_.periods.y != 0) box_.y_low = -infinity, box_.y_high = infinity;
     }
 
-    /// Computes psi6 of one disc. Returns whether its cell is complete, which means that no disc
-    /// beyond the reach could cut it; also true if it has no cell.
+    /// Computes psi6 of one disc. Returns true if its cell is complete, which means that no disc
+    /// beyond the reach could cut it, or if the disc has no cell.
     bool find(LocalIndex index, BondOrder& order) {
         const DiscState& disc = view_.population.discs[index];
         const double x = x_in_box(disc), y = y_in_box(disc);
@@ -52,7 +52,7 @@ public:
         if (!is_in_box(disc)) return true;
         const double smaller = sizes_.largest_squared_radius() - sizes_.squared_radius_of(disc.id);
         // Most cells are complete within a part of the reach, which has fewer discs to sort. Discs
-        // cut the cell in the order of distance, so both ranges give such a cell the same bits.
+        // cut the cell in order of distance, so both ranges give such a cell the same bits.
         for (const double range : {usual_part * reach_, reach_}) {
             find_neighbours(index, range);
             cell_.begin(std::max(-reach_, box_.x_low - x), std::min(reach_, box_.x_high - x),

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hexatic order psi6 of discs over their Voronoi neighbours, from the discs that a rank and its
-// halo contain. Each disc's cell is computed separately, from its neighbours in the order of
-// distance and id, so its bits do not depend on ranks and threads.
+// The hexatic order psi6 of discs over their Voronoi neighbours, from the discs of a rank and of
+// its halo. Each disc's cell is computed separately, from its neighbours in order of distance and
+// id, so its bits do not depend on ranks and threads.
 //
 // Discs of different radii have cells of the radical tessellation (B. J. Gellatly and J. L. Finney,
 // J. Non-Cryst. Solids 50, 313 (1982)): from each point of the side between two discs, tangents to
 // both are equally long. So a cell contains its disc, and two discs that touch are neighbours.
-// Bisectors of the centres would cut through large discs. For equal discs both lines are the same.
+// Perpendicular bisectors would cut through large discs. For equal discs both are the same.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct BondOrder {
 /// The radii of the discs. They affect the cells only if there are several species.
 struct CellSizes {
     const SpeciesTable* species = nullptr; ///< null if all discs have one size
-    double largest_radius = 0;             ///< at the scene's start, as in `species`
+    double largest_radius = 0;             ///< at the scene's start, like the radii in `species`
     double size = 1;                       ///< the factor by which radii have grown
 
     double squared_radius_of(DiscId id) const {
@@ -44,9 +44,9 @@ private:
     double squared(double radius) const { return (size * radius) * (size * radius); }
 };
 
-/// Fills in `orders` in the order of the view's discs. Walls of `box` bound cells and are not
-/// neighbours. The view must extend by `reach` around each disc whose order is computed. Returns
-/// whether `reach` was enough for all own discs; otherwise `orders` is invalid.
+/// Fills `orders` with one entry for each disc of the view, in the same order. Walls of `box` bound
+/// cells but are not neighbours. The view must extend by `reach` around each disc whose order is
+/// computed. Returns whether `reach` was enough for all own discs; otherwise `orders` is invalid.
 bool find_bond_orders(const LocalView& local_view, const Extent& box, const CellSizes& sizes,
                       double reach, int n_threads, std::vector<BondOrder>& orders);
 
@@ -68,7 +68,7 @@ struct HexaticSums {
     std::vector<ExactSum> products;        ///< sums over these pairs of Re(conj(psi6_i) psi6_j)
 };
 
-/// Adds psi6 of these discs to the sums over discs, and no pairs.
+/// Adds psi6 of these discs to the sums over discs, but adds no pairs.
 void add_discs(std::span<const BondOrder> orders, HexaticSums& sums);
 /// Adds this rank's discs and pairs; bins of distance are `bin_width` wide. A pair is counted once,
 /// by the rank that owns the disc with the lower id.

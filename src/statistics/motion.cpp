@@ -163,7 +163,7 @@ DriftOfInterval drift_of(Drift kind, const AveragedSystem& system, const MotionS
 
 /// The mean of the product a b over an interval. Where nothing stops a drift, it is constant or
 /// linear in time. For a fluctuating drift, the mean square at the two samples equals the mean
-/// square over time, whereas a straight line between the samples would give up to a third less.
+/// square over time; linear interpolation between the samples would give up to a third less.
 double mean_product(const DriftOfInterval& a, const DriftOfInterval& b) {
     const double at_ends = (a.before * b.before + a.after * b.after) / 2;
     if (a.kind == Drift::is_driven || b.kind == Drift::is_driven) return at_ends;
@@ -179,13 +179,13 @@ double per_freedom(Drift kind, double n_discs, const AveragedSystem& system) {
 
 } // namespace
 
-/// Two numbers of integrals_between are approximate: the distribution of the kinetic energy over
-/// the axes, and a drift that changes between samples. Both errors have only the weight 1 / N, and
-/// only along an axis where the drift is not part of the temperature.
+/// Two numbers in integrals_between are approximate: how the kinetic energy is divided between the
+/// axes, and a drift that changes between samples. Both errors enter the result only with the
+/// weight 1 / N, and only along axes where the drift is not part of the temperature.
 namespace {
 
-/// The difference of a sum of squares along an axis and `taken`; `all` is the sum along both
-/// axes. For discs with equal velocities only a rounding error is left, which is set to 0.
+/// A sum of squares along one axis, minus `taken`; `all` is the sum along both axes. If all discs
+/// have equal velocities, only a rounding error remains, which is set to 0.
 double rest(double sum, double taken, double all) {
     const double left = sum - taken;
     return std::fabs(left) <= 0x1p-44 * all ? 0 : left;
@@ -222,7 +222,7 @@ MotionIntegrals integrals_between(const AveragedSystem& system, const MotionSamp
                                   after.stress.xy - before.stress.xy,
                                   after.stress.yy - before.stress.yy};
     result.stress += result.kinetic;
-    if (!system.has_flow) result.stress += -1.0 * all; // in a flow this part is already in the sums
+    if (!system.has_flow) result.stress += -1.0 * all; // in a flow the sums contain no flights
     return result;
 }
 

@@ -3,7 +3,7 @@
 // two such times. Temperature and pressure follow from them (docs/understanding/pressure.md).
 //
 // All sums have the same bits for any number of ranks and threads. A sample takes two passes over
-// the discs, in all about five nanoseconds a disc.
+// the discs, which together take about five nanoseconds per disc.
 #pragma once
 
 #include <cstdint>
@@ -31,14 +31,14 @@ struct Tensor {
     }
 };
 
-/// Sums over all discs at one time; sums and means of speeds are over the discs in the box. Speeds
-/// are in units of `speed_unit`, a power of two, per micro-step.
+/// Sums over discs at one time: collisions of all discs; all other sums and means are over the
+/// discs in the box. Speeds are in units of `speed_unit`, a power of two, per micro-step.
 struct MotionSample {
     std::uint64_t wall_collisions = 0,
                   /// Collisions since the scene's start; a collision of a pair counts once
         pair_collisions = 0;
     double speed_unit = 1;
-    /// Mean powers of the speed over discs
+    /// Means over the discs of the speed, its square and its fourth power
     double mean_speed = 0, mean_square = 0, mean_fourth = 0;
     double n_discs = 0;                              ///< number of discs in the box
     double mass = 0, momentum_x = 0, momentum_y = 0; ///< sums over all discs in the box
@@ -50,15 +50,15 @@ struct MotionSample {
 };
 
 /// Samples everything except stress, energy and area. Each term is rounded to about N 2^-62 of its
-/// largest value, so that the bits do not depend on ranks and threads. Without a table all masses
-/// are 1. **Collective.**
+/// largest value, so that the bits do not depend on ranks and threads. Without a species table all
+/// masses are 1. **Collective.**
 MotionSample sample_motion(std::span<const DiscState> own, const SpeciesTable* species_table,
                            double heaviest, std::uint64_t n_discs, int n_threads,
                            const Communicator& communicator);
 
 /// Adds the integrals in `mine`, summed over all ranks, to `sample`. **Collective.**
 void add_integrals(const StressSums& mine, const Communicator& communicator, MotionSample& sample);
-/// Adds the integrals over flights since the last sync in the coordinates of `frame`.
+/// Adds the integrals over flights since the last sync; `frame` is the frame of the stored discs.
 void add_flights(const FlightIntegral& flights, const Frame& frame, MotionSample& sample);
 
 /// Constants of the scene that averages need.
@@ -81,8 +81,8 @@ struct AveragedSystem {
 struct MotionIntegrals {
     double steps = 0, area = 0, n_discs = 0;
     /// Sum of m v v, without the drift along axes where the drift is not part of the temperature.
-    /// There it is scaled by N / (N - 1) for the lost degree of freedom, so its mean is N kT
-    /// along each axis. For a single disc it is NaN there.
+    /// Along those axes it is scaled by N / (N - 1) for the lost degree of freedom, so that its
+    /// mean is N kT along each axis; for a single disc it is NaN.
     Tensor kinetic;
     Tensor stress; ///< stress times area
 

@@ -19,7 +19,8 @@ std::size_t species_of(DiscId id, std::span<const DiscId> species_ends) {
     return k;
 }
 
-/// Gauss's quadrature with five points: middle weight, then the other points and their weights.
+/// Gauss-Legendre quadrature with five points: the weight of the middle point, then the other
+/// points and their weights.
 constexpr double middle_weight = 128.0 / 225;
 constexpr std::array<std::array<double, 2>, 2> nodes = {
     {{0.5384693101056831, 0.47862867049936647}, {0.9061798459386640, 0.23692688505618908}}};
@@ -46,10 +47,10 @@ struct Stadium {
         const double beyond = std::max(std::fabs(x) - straight, 0.0);
         return std::sqrt(std::max(radius * radius - beyond * beyond, 0.0));
     }
-    /// The area that the stadium shares with a copy of itself at (p, q), both not negative. The
+    /// The area that the stadium shares with a copy whose centre is at (p, q), with p, q >= 0. The
     /// common part is symmetric about its middle; left of that the copy has the shorter chords.
     double common_area(double p, double q) const {
-        const auto chord = [&](double x, double half) { // x from the copy's centre
+        const auto chord = [&](double x, double half) { // x is relative to the copy's centre
             return std::clamp(half_chord(x + p) + half - q, 0.0, 2 * half);
         };
         constexpr int n_parts = 24;
@@ -128,7 +129,7 @@ double share_of_ideal_pairs_in_circle(double radius, double distance) {
 }
 
 /// For a pair with the difference h, the positions of one point form the common part of the stadium
-/// and its copy shifted by h. All four quadrants of h have the same contribution.
+/// and its copy shifted by h. All four quadrants of h contribute equally.
 double share_of_ideal_pairs_in_stadium(double length, double radius, double inner, double outer) {
     const Stadium stadium{length / 2, radius};
     const double pairs = integral(inner, outer, 2, [&](double distance) {

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t discs_at_once = 128; ///< number of discs whose phases fit in the cache
 using Lane = std::array<double, discs_at_once>;
 
-/// The factors exp(2 pi i n place / length) of some discs, n from 0.
+/// The factors exp(2 pi i n x / length) of a group of discs along one axis, for n = 0, 1, ...
 struct Phases {
     std::vector<Lane> real, imaginary;
 
@@ -35,8 +35,8 @@ struct Mode {
     double real = 0, imaginary = 0;
 };
 
-/// Terms are rounded to whole units of DensityModes by adding a large number and subtracting it.
-/// Sums of these terms are exact and do not depend on the order.
+/// Sums exp(i k r) over a group of discs. Each term is rounded to whole units of DensityModes by
+/// adding and subtracting a large number, so the sum is exact in any order.
 Mode mode_of(const Phases& x, const Phases& y, const WaveVector& vector, std::size_t n_discs,
              double rounder) {
     const auto n = static_cast<std::size_t>(vector.n),

@@ -66,7 +66,7 @@ std::uint64_t row_of(std::uint64_t id, const std::vector<std::uint64_t>& departe
     return row;
 }
 
-/// Makes lines of discs while they are read, one block of discs after the other.
+/// Generates lines of discs on demand, one block of discs at a time.
 class LinesOfDiscs : public std::streambuf {
 public:
     LinesOfDiscs(FrameFile file, std::size_t frame, std::vector<std::size_t> places,
@@ -108,7 +108,7 @@ private:
         setg(nullptr, nullptr, nullptr);
         return pos_type(0);
     }
-    /// Makes the lines of the next discs that have not departed.
+    /// Formats the lines of the next block of rows; departed discs have no lines.
     void make_lines() {
         const std::uint64_t begin = row_, end = std::min(begin + block, file_.summary().n_rows);
         read(begin, end);
@@ -147,7 +147,7 @@ private:
     std::vector<std::size_t> places_; ///< indices of the columns in the file
     double moved_x_, moved_y_;        ///< the scene's origin minus the file's origin
     ShareOfDiscs share_;
-    std::uint64_t first_row_, row_ = 0;     ///< rows of the file
+    std::uint64_t first_row_, row_ = 0;     ///< the share's first row, and the next row to read
     std::uint64_t next_ = 0, n_before_ = 0; ///< new id of the next disc; bytes of earlier blocks
     std::ptrdiff_t next_left_ = 0;          ///< index of the next departed disc in `departed`
     std::string lines_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `discs.from`: reads the discs of another run's checkpoint or frame as lines of a file of discs.
-// The lines are checked and sent to their ranks like all listed discs. They are made while they are
-// read, at most 65536 at a time, so that no rank has to store all of them. Each rank can read the
+// The lines are checked and sent to their ranks like all listed discs. They are generated on
+// demand, at most 65536 at a time, so that no rank has to store all of them. Each rank can read the
 // lines of its own share. Discs that have left their box through an open side are left out, and the
 // other discs get new ids in the order of their old ids.
 #pragma once
@@ -25,8 +25,8 @@ struct FileOfDiscs {
     /// Number of discs of each species that have not departed, if the file has species
     std::vector<std::uint64_t> n_by_species;
     double radius = 0;   ///< radius of the largest disc in the file
-    std::string columns; ///< `discs.columns` for the lines; empty: no more columns
-    /// Lines `id x y vx vy` and the numbers of `columns`, in the order of new ids. Velocities are
+    std::string columns; ///< value of `discs.columns` for further columns; empty if there are none
+    /// Lines `id x y vx vy` and the numbers of `columns`, in order of the new ids. Velocities are
     /// per step. The stream can be read again. It throws if the file can no longer be read.
     std::unique_ptr<std::istream> lines;
 };

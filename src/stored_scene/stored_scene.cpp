@@ -95,7 +95,7 @@ RecordedSystem system_of(const SceneParameters& scene) {
     const Extent end = extent_of_lines(scene.effects, scene.box, static_cast<double>(scene.steps));
     system.box = {std::max(scene.box.x, end.x_high), std::max(scene.box.y, end.y_high)};
     if (scene.box.is_square() && !scene.effects.are_periodic())
-        system.box = system.box.longest(); // walls may move
+        system.box = system.box.longest(); // recorded as a square, even if walls move
     system.radius = scene.radius;
     system.species = scene.effects.species;
     system.is_periodic_x = scene.effects.is_periodic_x();

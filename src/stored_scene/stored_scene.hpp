@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scene in a file: in the header of a checkpoint, and in a recording of its run. The text and
+// Stores the scene in files: in headers of checkpoints and in recordings of its run. The text and
 // its overrides (`key=value`) are stored, so the file alone is enough to continue the run.
 #pragma once
 
@@ -30,7 +30,7 @@ std::string first_difference(const CheckpointHeader& there, const SceneParameter
 
 /// The description of the box and the discs that files of the scene's run contain.
 RecordedSystem system_of(const SceneParameters& scene);
-/// What the trajectory file of the scene's run contains, with the fields that `wanted` lists.
+/// The contents of the trajectory file of the scene's run, with the fields that `wanted` lists.
 TrajectoryLayout layout_of(const SceneParameters& scene, const TrajectoryOutput& wanted);
 
 } // namespace carrom

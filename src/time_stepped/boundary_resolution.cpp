@@ -11,7 +11,7 @@
 
 namespace carrom {
 
-/// A candidate in a message: its key in the total order, and where its decision must be sent.
+/// A candidate in a message: its key in the total order, and where the decision must be sent.
 struct BoundaryResolution::Conflict {
     double time;
     DiscId p;
@@ -95,8 +95,8 @@ void BoundaryResolution::keep(const Candidate& candidate, Candidates& kept) {
     insert(candidate, taken_);
 }
 
-/// Fills `is_first_`: whether each undecided candidate, in total order, is the first one of all its
-/// discs that this rank owns.
+/// Fills `is_first_`: whether each undecided candidate (in total order) is the first one of each of
+/// its discs that this rank owns.
 void BoundaryResolution::find_first(const Population& population, const Candidates& undecided) {
     is_first_.clear();
     seen_.clear();
@@ -108,12 +108,12 @@ void BoundaryResolution::find_first(const Population& population, const Candidat
     }
 }
 
-/// Keeps and rejects the candidates that this rank can decide alone. Those marked in `is_struck`
-/// have been decided before, and the discs of the kept ones among them are in `taken_`.
+/// Keeps or rejects the candidates that this rank can decide alone. Candidates that are marked in
+/// `is_struck` have already been decided; if they were kept, their discs are in `taken_`.
 void BoundaryResolution::walk_own(const Population& population,
                                   const std::vector<std::uint8_t>& is_struck, Candidates& undecided,
                                   Candidates& kept) {
-    seen_.clear(); // discs with a candidate that another rank has to decide
+    seen_.clear(); // discs that have an earlier candidate that stays undecided
     std::size_t n_left = 0;
     for (std::size_t k = 0; k < undecided.size(); ++k) {
         const Candidate c = undecided[k];
@@ -177,7 +177,8 @@ void BoundaryResolution::sort(const Population& population, Candidates& undecide
     undecided.clear();
 }
 
-/// Returns all copies of the candidates of a sorted slice that happen; adds their discs to `taken`.
+/// Returns all copies of those candidates of a sorted slice that happen, and adds their discs to
+/// `taken`.
 std::vector<BoundaryResolution::Conflict> BoundaryResolution::walk(
     const std::vector<Conflict>& slice, std::vector<DiscId>& taken) const {
     std::unordered_set<DiscId> is_taken(taken.begin(), taken.end());

@@ -2,10 +2,10 @@
 // Decides chains of candidates with common discs that extend over several strips, so that no rank
 // can decide them alone (docs/understanding/method.md, section 7).
 //
-// Neighbours exchange messages first. For every candidate with discs of two ranks, each rank
+// First, neighbours exchange messages. For every candidate with discs of two ranks, each rank
 // reports whether it is the first remaining candidate of its own disc. A candidate that is first
-// for both is final. A candidate that one rank does not report is rejected there. One message
-// to each neighbour decides nearly everything in a gas, whatever the number of ranks.
+// for both is kept. If only one of the ranks reports a candidate, the other one has rejected it.
+// In a gas, one message to each neighbour decides nearly all candidates on any number of ranks.
 //
 // A chain that zigzags between strips takes a round for each crossing. So after a few rounds the
 // remaining candidates are sorted across the ranks into the total order. Ranks then walk their
@@ -30,9 +30,9 @@ public:
     explicit BoundaryResolution(const Communicator& communicator)
         : communicator_(communicator), with_neighbours_(communicator), next_slice_(communicator) {}
 
-    /// One exchange of messages with `neighbours`, which are all ranks that own discs of this
-    /// rank's halo or have this rank's discs in their halos. Moves candidates of `undecided` that
-    /// are now final to `kept`, and drops the rejected ones. **Collective.**
+    /// Exchanges messages once with `neighbours`, which are all ranks that own discs of this rank's
+    /// halo or have this rank's discs in their halos. Then moves candidates of `undecided` that
+    /// certainly happen to `kept`, and drops the rejected ones. **Collective.**
     void resolve_boundary(const Population& population, std::span<const int> neighbours,
                           Candidates& undecided, Candidates& kept);
 
@@ -42,7 +42,7 @@ public:
                 Candidates& undecided, std::uint64_t n_conflicts, Candidates& kept);
 
     int rounds_before_sort = 6; ///< rounds of messages before the sort; affects only the cost
-    std::uint64_t candidates_per_slice = 8192; ///< least size of a slice; affects only the cost
+    std::uint64_t candidates_per_slice = 8192; ///< smallest size of a slice; affects only the cost
 
 private:
     struct Conflict;
@@ -59,7 +59,7 @@ private:
     Communicator communicator_;
     NeighbourExchange with_neighbours_, next_slice_;
     std::vector<std::uint8_t>
-        is_first_; ///< whether each undecided candidate is the first one of its own discs
+        is_first_; ///< whether each undecided candidate is the first one of each of its own discs
     DiscSet seen_, taken_;
 };
 

@@ -45,8 +45,8 @@ private:
     std::span<const DiscState> discs_;
 };
 
-/// Whether neither disc has collided since the prediction. `seen` is the latest state (window.hpp)
-/// that any disc had at the prediction. `states` is indexed by disc.
+/// Whether neither disc has collided since the prediction. `seen` is the largest number of a state
+/// (window.hpp) that any disc had at the prediction. `states` has the present number for each disc.
 inline bool is_current(const Candidate& candidate, WindowState seen,
                        std::span<const WindowState> states) {
     return states[candidate.p] <= seen && (candidate.is_wall() || states[candidate.q] <= seen);

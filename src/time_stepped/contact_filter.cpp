@@ -30,11 +30,11 @@ template <class D> struct Broadcast {
           vy(hold(d, lanes.vy[slot])), touching(hold(d, touching_squared)) {}
 };
 
-/// Which flights of the vector that begins at `slot` might touch `flight`, as bits: those
-/// that are already near, and those that approach closely enough and arrive before the
-/// window ends. Let d be the separation and w the relative velocity over the window, b =
-/// d.w, a = w.w, c = d.d - touching^2. All rounding in b^2 - a c, and in c at the window's
-/// end, is less than 18 * 2^-24 a d.d. So c with d.d reduced by a share of 2^-19 loses no contact.
+/// Returns bits that show which flights of the vector at `slot` might touch `flight`: those that
+/// already touch it, and those that approach closely enough and arrive before the window ends. Let
+/// d be the separation, w the relative velocity in lengths per window, b = d.w, a = w.w, and
+/// c = d.d - touching^2. The rounding errors of b^2 - a c, and of a c at the window's end, are less
+/// than 18 * 2^-24 a d.d. So no contact is lost if c is computed with d.d (1 - 2^-19).
 template <class D>
 HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::uint32_t slot,
                                           std::uint32_t n_inside, const Broadcast<D>& flight) {
@@ -67,8 +67,8 @@ HWY_INLINE std::uint64_t lanes_that_touch(D d, const FlightLanes& lanes, std::ui
 }
 
 /// Writes (first, second) to `out`, after the first `n_pairs`, for each slot `second` of `run` in
-/// `lanes` that might touch `flight`. With `is_one_of_them`, omits the pair (first, first). Returns
-/// the new number of pairs. `out` must have room.
+/// `lanes` that might touch `flight`. If `is_one_of_them`, `run` may contain `first`, and the pair
+/// (first, first) is omitted. Returns the new number of pairs. `out` must have room.
 template <bool is_one_of_them, class D>
 HWY_INLINE std::size_t write_pairs(D d, const Broadcast<D>& flight, std::uint32_t first,
                                    const FlightLanes& lanes, SlotRange run, DiscPair* out,
@@ -90,7 +90,8 @@ template <class T> T* room(std::vector<T>& buffer, std::size_t size, std::size_t
     return buffer.data();
 }
 
-/// The touching^2 that find_near_passes needs, because its d x w errs by up to 5 * 2^-24 |d| |w|.
+/// The value of touching^2 for find_near_passes. It is enlarged, because the d x w of that function
+/// has an error of up to 5 * 2^-24 |d| |w|.
 float passing_squared(const CellGrid& grid, float touching_squared) {
     const float margin = 0x1p-21f * 4 * static_cast<float>(grid.geometry().n_reach + 2);
     const float passing = std::sqrt(touching_squared) + margin;
@@ -107,7 +108,7 @@ struct NearPass {
 /// the discs may touch: (d x w)^2 <= touching^2 w.w (see lanes_that_touch). This test costs half as
 /// much as the test of times, and rejects most vectors if discs fly much further than their
 /// diameter. It has no branch that depends on the data. Writes to `out` after the first n entries,
-/// where `out` has room for all, and returns the new number.
+/// and returns the new number of entries. `out` must have room.
 template <class D>
 HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange cell,
                                         SlotRange run, float passing_squared, NearPass* out,
@@ -131,8 +132,8 @@ HWY_INLINE std::size_t find_near_passes(D d, const FlightLanes& lanes, SlotRange
     return n;
 }
 
-/// The partners of at most this many discs of a cell are listed at a time, because a box of a
-/// single cell has all discs in it.
+/// The partners of at most this many discs of a cell are listed at a time, because a single cell
+/// may contain all discs of the box.
 constexpr std::uint32_t discs_in_piece = 256;
 
 /// Finds the pairs of own discs for FilterColumn, if discs fly much further than their diameter.
@@ -233,7 +234,7 @@ HWY_INLINE std::size_t filter_halo(D d, const CellGrid& grid, int column, float 
         if (!grid.has_halo_in(other)) continue;
         for (int row = 0; row < n_rows; ++row) {
             const SlotRange run = grid.halo_run(other, row - reach, row + reach);
-            // no halo discs here, except in rows near the ends of a periodic box
+            // in columns inside the domain, only rows near the ends of the box have halo discs
             if (run.begin == run.end) {
                 const int next = grid.next_halo_row(other, row + reach + 1);
                 if (next == n_rows) break;
@@ -281,8 +282,8 @@ struct CellsAround {
           last_row(grid.clamped_row(HWY_MAX(path.y_begin, path.y_end) + half_reach)) {}
 };
 
-/// Writes the pairs of a flight, whose index in pairs is `first`, with own discs in `cells`,
-/// and, if wanted, with halo discs there.
+/// Writes the pairs of a flight, which has the index `first` in pairs, with own discs in `cells`
+/// and, if `with_halo`, with halo discs in `cells`.
 template <bool is_one_of_them, class D>
 HWY_INLINE std::size_t filter_cells(D d, const CellGrid& grid, const Broadcast<D>& flight,
                                     std::uint32_t first, const CellsAround& cells, bool with_halo,

@@ -22,7 +22,7 @@ std::size_t filter_column(const CellGrid& grid, int column, float touching_squar
 /// Appends to the first `n_pairs` entries of `pairs` the pairs of the disc with each disc that it
 /// might touch between the fraction `from` of the window and its end. Omits pairs of two halo
 /// discs. Returns the new number of pairs. Only cells within `half_reach` of that part of the path
-/// are searched, because no partner's cell is further from the place of a contact.
+/// are searched, because no partner's cell is further away from the position of a contact.
 std::size_t filter_around(const CellGrid& grid, LocalIndex index, float from, float half_reach,
                           float touching_squared, std::vector<DiscPair>& pairs,
                           std::size_t n_pairs);

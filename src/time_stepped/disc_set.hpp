@@ -12,7 +12,8 @@
 
 namespace carrom {
 
-/// A hash table with open addressing. A slot is in use if it was filled since the last `clear`.
+/// A hash table with open addressing. A slot is in use if it has been filled since the last call
+/// of `clear`.
 class DiscSet {
 public:
     void clear() {
@@ -24,7 +25,7 @@ public:
         }
     }
 
-    /// Inserts the disc. Returns false if it was in the set before.
+    /// Inserts the disc. Returns false if it was already in the set.
     bool insert(LocalIndex disc) {
         Slot& slot = slots_[place_of(disc)];
         if (slot.round == round_) return false;
@@ -44,7 +45,7 @@ private:
     /// The slot that contains the disc, or the free slot where it would be inserted. At least half
     /// of all slots are free.
     std::size_t place_of(LocalIndex disc) const {
-        // The golden section times 2^32; scatters consecutive numbers
+        // 0.618..., the golden section, times 2^32; it scatters consecutive numbers
         constexpr std::uint32_t golden_section = 0x9E3779B9;
         std::size_t place = disc * golden_section >> (32 - n_bits_);
         while (slots_[place].round == round_ && slots_[place].disc != disc)

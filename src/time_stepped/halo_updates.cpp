@@ -20,8 +20,8 @@ std::uint64_t TimeSteppedEngine<Dynamics>::count_ours(std::span<const Candidate>
     return n;
 }
 
-/// Exchanges new states with the neighbours. Appends to `hits_` the updated halo discs, or
-/// `wall_index`, which later code skips, for discs that have also collided on this rank.
+/// Exchanges new states with the neighbours. Appends the updated halo discs to `hits_`. For a disc
+/// whose collision this rank has also carried out, appends `wall_index`, which later code skips.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::update_halo(const Window& window, int m) {
     if (discs_.has_no_halo()) return;

@@ -16,7 +16,7 @@ constexpr double large_disc = 200;       ///< time for each large disc in a wind
 constexpr double partner_of_large = 0.5; ///< time for each disc in the cells around a large disc
 constexpr double pair_of_large = 0.1;    ///< time for each tested pair of a disc and a large disc
 constexpr double hits = 0.3;             ///< estimated collisions of a disc in a window
-constexpr double flight = 0.3; ///< length of a flight in a window, over the mean distance of discs
+constexpr double flight = 0.3; ///< length of a flight in a window, divided by the mean spacing
 
 } // namespace
 

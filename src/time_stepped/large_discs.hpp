@@ -15,8 +15,8 @@
 
 namespace carrom {
 
-/// The radius of the largest discs that cells should fit; few discs, if any, are larger. `area` is
-/// the area of the box.
+/// The radius of the largest discs for which cells should be made; few discs, if any, are larger.
+/// `area` is the area of the box.
 double usual_radius_of(std::span<const Species> species, double radius, double area);
 
 /// The large discs of a rank and its halo, with copies of their flights in one array.

@@ -48,7 +48,8 @@ void insist(std::uint32_t& mark, std::uint32_t number, std::span<const Candidate
 
 } // namespace
 
-/// All discs are free before and after a call, so old marks need not be copied.
+/// Makes room for the marks of `n_discs` discs. All discs are free before and after a call of
+/// `resolve`, so old marks need not be copied.
 void LocalResolution::make_room_for(std::size_t n_discs) {
     if (first_.size() >= n_discs) return;
     first_.clear();
@@ -98,7 +99,8 @@ std::size_t LocalResolution::round_alone(const Population& population, Candidate
         first_[candidate.p] = taken_disc;
         if (!candidate.is_wall()) first_[candidate.q] = taken_disc;
     }
-    // Other candidates of discs with a kept one are removed; marks except `taken_disc` are reset.
+    // Removes all other candidates of discs that have a kept one, and resets all marks except
+    // `taken_disc`.
     const auto is_struck = [&](const Candidate& candidate) {
         const bool p_taken = first_[candidate.p] == taken_disc,
                    q_taken = !candidate.is_wall() && first_[candidate.q] == taken_disc;
@@ -173,7 +175,7 @@ std::size_t LocalResolution::round_together(const Population& population, Candid
             if (!candidate.is_wall() && !q_taken) write(first_[candidate.q], free_disc);
             if (!p_taken && !q_taken) rest.push_back(candidate);
         }
-        // Live candidates have no disc with a kept candidate, so marks are not needed any more.
+        // No disc of a live candidate has a kept candidate, so the marks are no longer needed.
         for (const Candidate& candidate : kept) {
             write(first_[candidate.p], free_disc);
             if (!candidate.is_wall()) write(first_[candidate.q], free_disc);

@@ -2,7 +2,7 @@
 // Decides which candidates of a micro-step (or of a part of it) happen, as far as this rank can
 // decide alone.
 //
-// The rule is a walk in total order: keep a candidate if neither disc has a kept one yet. Rounds
+// The rule is a walk in total order: keep a candidate if neither disc has one that is kept. Rounds
 // give the same result: keep all candidates that are first for both discs, reject the other
 // candidates of these discs, and repeat (Blelloch, Fineman, Shun 2012). Gases need one to three
 // rounds. A long chain would need half as many rounds as its length, so after a few rounds the rest
@@ -31,7 +31,8 @@ class LocalResolution {
 public:
     explicit LocalResolution(int n_threads) : n_threads_(n_threads) {}
 
-    /// Decides the candidates in `live`, and empties it. Before the call no disc has a kept one.
+    /// Decides the candidates in `live`, and empties it. Candidates of discs that already have a
+    /// kept candidate must have been removed.
     void resolve(const Population& population, Candidates& live, Verdicts& verdicts);
 
     int rounds_before_walk = 12; ///< affects only the cost; with 0 the walk starts immediately

@@ -17,14 +17,14 @@ void TimeSteppedEngine<Dynamics>::record_velocities(std::span<const DiscState> r
         unhit_partners_.push_back(c.is_wall() ? DiscState{} : results[c.q]);
 }
 
-/// Two ranks may carry out a collision. Only the rank that owns the first disc logs it.
+/// Two ranks may both carry out the same collision. Only the owner of its first disc logs it.
 template <class Dynamics>
 void TimeSteppedEngine<Dynamics>::log_collisions(std::span<const DiscState> results, int m) {
     const auto k = static_cast<double>(this->micro_steps_);
     for (std::size_t i = 0; i < unhit_.size(); ++i) {
         const Candidate& c = verdicts_.kept[i];
         if (c.p >= discs_.n_own()) continue;
-        // a departed disc is at rest, but it got no impulse
+        // a disc that departs is set to rest, but this is not an impulse
         if (results[c.p].has_departed()) unhit_[i].vx = unhit_[i].vy = 0;
         const double dx = (results[c.p].vx - unhit_[i].vx) * k,
                      dy = (results[c.p].vy - unhit_[i].vy) * k;

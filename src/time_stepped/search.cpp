@@ -25,7 +25,8 @@ constexpr std::size_t pairs_ahead = 8;
 /// Number of pairs between two tests for a request to stop.
 constexpr std::size_t pairs_between_checks = 65536;
 
-/// Adds a candidate that was predicted from the states at the beginning of micro-step `from`.
+/// Adds a candidate of micro-step m that was predicted from the states at the beginning of
+/// micro-step `from`.
 void add(SearchLists& lists, const Window& window, int from, int m, const Candidate& candidate) {
     lists.by_micro[static_cast<std::size_t>(m - window.first_micro)].add(
         candidate, window.state_after(from - 1));
@@ -35,8 +36,8 @@ void prefetch(std::span<const DiscState> discs, LocalIndex index) {
     __builtin_prefetch(&discs[index]);
 }
 
-/// Calls `judge` for each of the first n pairs, and `ask`, a prefetch, some pairs earlier. Ends
-/// early if a request to stop is overdue.
+/// Calls `judge` for each of the first n pairs. Some pairs earlier, calls `ask` for the same pair,
+/// so that it can prefetch the pair's states. Ends early if a request to stop is overdue.
 template <class Ask, class Judge>
 void for_each_ahead(const std::vector<DiscPair>& pairs, std::size_t n, const Ask& ask,
                     const Judge& judge) {
@@ -178,7 +179,7 @@ template <class Dynamics>
 void Search<Dynamics>::predict_column(const Population& population, const CellGrid& grid,
                                       const Window& window, const Bounds& bounds, int column,
                                       SearchLists& lists) const {
-    if (is_stop_overdue()) return; // the engine will repeat or give up the step
+    if (is_stop_overdue()) return; // the engine will abandon the step
     lists.n_pairs = dynamics_.has_pairs()
                         ? filter_column(grid, column, bounds.touching_squared, lists.pairs)
                         : 0;
@@ -202,8 +203,8 @@ void Search<Dynamics>::predict_column(const Population& population, const CellGr
 }
 
 /// Largest distance, in cells, from a disc's path to the cells of the discs of the usual radius
-/// that it touches. When they touch, the distance of centres is the sum of both radii, and the
-/// other disc flies at most half a reach minus its radius in a window.
+/// that it touches. When they touch, the distance between their centres is the sum of both radii,
+/// and in a window the other disc flies at most half a reach minus its own radius.
 template <class Dynamics>
 float Search<Dynamics>::half_reach(const CellGrid& grid, double reach, double radius) const {
     return grid.cells_of(reach / 2 + radius + dynamics_.slack());
@@ -308,8 +309,8 @@ void Search<Dynamics>::find_pairs_around(const Population& population, const Cel
     lists.n_pairs = 0;
     const float half = half_reach(grid, reach, usual_radius_);
     for (std::size_t k = 0; k < hit.size() && dynamics_.has_pairs(); ++k) {
-        // A disc needs a dozen cache lines, so its cells are prefetched first, and then the flights
-        // in them.
+        // The search around a disc reads a dozen cache lines, so the disc's cells are prefetched
+        // first, and then the flights in them.
         if (k + 2 * around_ahead < hit.size()) grid.prefetch_cells(hit[k + 2 * around_ahead]);
         if (k + around_ahead < hit.size()) grid.prefetch_flights(hit[k + around_ahead]);
         if (hit[k] == wall_index) continue;

@@ -3,8 +3,8 @@
 //
 // A prediction is a function of two stored states, and is valid until one of them changes. So
 // after a micro-step only the discs that collided are predicted again. Each thread owns columns of
-// cells and has its own lists; no result depends on the order of the lists. Cost: some 30
-// single-precision tests a disc and window, and one in double precision for each pair left over.
+// cells and has its own lists; no result depends on the order of the lists. Cost: some 30 tests in
+// single precision per disc and window, and one in double precision for each pair that passes them.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,7 @@ struct SearchLists {
     std::vector<DiscPair> pairs;         ///< pairs, of which only the first n_pairs count
     std::size_t n_pairs = 0;
 
-    /// Moves the candidates that are still valid out of the list.
+    /// Returns the candidates of list `bucket` that are still valid. The list is empty afterwards.
     Candidates take(std::size_t bucket, std::span<const WindowState> states);
 };
 
@@ -59,10 +59,10 @@ public:
     /// Cells are made for discs up to `usual_radius`; larger discs are searched separately.
     Search(const Dynamics& dynamics, int n_threads, double usual_radius);
     double usual_radius() const { return usual_radius_; }
-    /// Lists the large discs. Call it after the grid was built for the next window, and before
+    /// Lists the large discs. Call it after the grid has been built for the next window, and before
     /// CellGrid::set_apart.
     void list_large(const Population& population, const CellGrid& grid);
-    /// Replaces the dynamics after a sync, because moving images have other positions then.
+    /// Replaces the dynamics after a sync, because moving images then have other positions.
     void change_dynamics(const Dynamics& dynamics) { dynamics_ = dynamics; }
 
     /// Predicts all contacts in `window`, for which the grid must have been built. `reach` is the
@@ -70,9 +70,9 @@ public:
     void predict_all(const Population& population, const CellGrid& grid, const Window& window,
                      double reach);
 
-    /// Predicts the contacts of own and halo discs that collided in micro-step `from` - 1, for the
-    /// window's micro-steps from `from` on; skips entries `wall_index`. The grid and `states`,
-    /// indexed by disc, must be up to date. `reach` is as in predict_all.
+    /// Predicts the contacts of the own and halo discs in `hit`, which collided in micro-step
+    /// `from` - 1, for the window's micro-steps from `from` on. Entries `wall_index` are skipped.
+    /// The grid and `states`, indexed by disc, must be up to date. `reach` is as in predict_all.
     void predict_again(const Population& population, const CellGrid& grid, const Window& window,
                        int from, double reach, std::span<const LocalIndex> hit,
                        std::span<const WindowState> states);

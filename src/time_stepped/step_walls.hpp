@@ -2,9 +2,9 @@
 // Collisions with walls, open sides and fixed bodies within a micro-step m of the time-stepped
 // method (docs/understanding/method.md, section 3). Times t are within the micro-step, 0 to 1.
 //
-// A disc collides at most once in a micro-step. So a disc that would leave the box, or run into a
-// fixed body, after this collision stops there, and bounces in the next micro-step. Walls are
-// at rest in this method. Each side has its own law of bounces (dynamics/boundaries.hpp).
+// A disc collides at most once in a micro-step. If it would then reach a wall or a fixed body in
+// the same micro-step, it stops there, and bounces in the next micro-step. Walls are at rest in
+// this method. How discs bounce off each side is defined in dynamics/boundaries.hpp.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace carrom {
 
-/// The walls that a disc meets in a bounce.
+/// Whether a disc bounces off a wall across x, and off a wall across y.
 struct MetWalls {
     bool at_x = false, at_y = false;
 };
@@ -110,7 +110,7 @@ private:
         return touches(disc, axis) && !is_open(disc, axis);
     }
 
-    /// Whether the disc flies towards an open side.
+    /// Whether the disc's motion along `axis` is towards an open side.
     CARROM_DEVICE bool is_open(const DiscState& disc, Axis axis) const {
         return Dynamics::may_lose_discs && along(axis, disc.vx, disc.vy) != 0 &&
                dynamics_.sides().is_open_ahead(disc, axis);
@@ -165,7 +165,8 @@ private:
             stop(disc, m, t, contact.body);
         }
     }
-    /// Returns false if no fixed body stops the disc, or if a side stops it earlier.
+    /// Stops the disc at the first fixed body in its path, and returns true. Does nothing and
+    /// returns false if there is no such body in this micro-step, or if a side stops it earlier.
     CARROM_DEVICE bool stops_at_fixed_body(DiscState& disc, double m, double at_side,
                                            std::uint32_t left) const {
         if constexpr (Dynamics::may_have_fixed_bodies) {

@@ -15,8 +15,8 @@ namespace carrom {
 
 namespace {
 
-/// Factors by which speeds may grow in a window before it is cut short. The first holds in
-/// equilibrium, the second after a window that was cut.
+/// Factors by which speeds may grow in a window before it is cut short. The first one applies in
+/// equilibrium, the second one after a window that was cut.
 constexpr double least_allowance = 1.02, allowance_after_cut = 1.15;
 
 /// Uses fewer threads for few discs, because threads with little work cost more than they save.
@@ -186,7 +186,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::agree_on_speed() {
     this->refuse_long_flights(std::max(travel_speed_, largest_speed_));
 }
 
-/// If images move, a disc that crosses into another row of boxes has another speed there without a
+/// If images move, a disc that crosses into another row of boxes gets another speed without a
 /// collision. It may cross before the window's anchor, so the speed of the images is added.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::survey_images() {
     if constexpr (Dynamics::has_moving_images) {
@@ -202,9 +202,9 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate() {
     migrate_at(time_);
 }
 
-/// A disc was sorted by its old flight, but its position now follows the new flight. So `flown`
-/// includes the old flight and the new one, which began at a change of state, not before
-/// `unchanged_until_`. Between the parts of a micro-step no state changes.
+/// A disc was sorted by a position on its old flight, but after a collision it is on a new flight,
+/// which cannot have begun before `unchanged_until_`. So `flown` is the time on both flights, with
+/// the change at `unchanged_until_`. Between the parts of a micro-step no state changes.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::migrate_at(double time) {
     const double from = part_ > 0 ? redistributed_time_ : unchanged_until_;
     const double flown = (time - from) + std::fabs(redistributed_time_ - from);
@@ -221,7 +221,7 @@ template <class Dynamics>
 bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
     const PhaseClock::Scope resolving(phases_, Phase::resolve);
     std::uint64_t n_candidates = 0;
-    { // a scope in which the list is freed before others grow
+    { // at the end of this scope the list is freed, before others grow
         Candidates live = search_.collect(window, m, states_);
         n_candidates = count_ours(live);
         if (in_parts_) strike_taken(live);
@@ -232,7 +232,7 @@ bool TimeSteppedEngine<Dynamics>::run_micro_step(const Window& window, int m) {
         across_strips_.resolve_boundary(population(), discs_.neighbours(), verdicts_.undecided,
                                         verdicts_.kept);
     }
-    // Within a micro-step no disc flies on after its collision, so its speed matters
+    // A disc does not collide again in the same micro-step, so its speed after a collision matters
     // only for later micro-steps.
     std::uint64_t updates[] = {verdicts_.undecided.size(),
                                speed_exceeded_ && m > window.first_micro ? 1u : 0u,
@@ -293,9 +293,9 @@ template <class Dynamics>
     }
 }
 
-/// Returns the square of the largest speed after the collision, or 0 for mirror walls, which do not
-/// change speeds. If two ranks carry out the collision, the owner of the first disc adds it to the
-/// sums.
+/// Carries out a collision. Returns the square of the largest speed after it, or 0 for a mirror
+/// wall, which does not change speeds. If two ranks carry out the collision, the owner of the first
+/// disc adds it to the sums.
 template <class Dynamics>
 [[gnu::always_inline]] inline double TimeSteppedEngine<Dynamics>::collide(const Candidate& c, int m,
                                                                           DiscStates& results,
@@ -370,7 +370,7 @@ double TimeSteppedEngine<Dynamics>::collide_all(const Window& window, int m, Dis
     return std::sqrt(fastest);
 }
 
-/// The next migration also needs the largest speed before the sync, by which discs were sorted.
+/// Keeps the largest speed before the sync, because the next migration also covers earlier flights.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::finish_sync(double largest_speed) {
     unchanged_until_ -= time_;
     if constexpr (Dynamics::has_moving_images) search_.change_dynamics(dynamics_);
@@ -382,7 +382,7 @@ template <class Dynamics> void TimeSteppedEngine<Dynamics>::finish_sync(double l
                             static_cast<double>(this->sync_every_));
 }
 
-/// The next sorting follows flights with the new velocities, so the largest speed includes them.
+/// The next migration covers flights with the new velocities, so the largest speed includes them.
 template <class Dynamics> void TimeSteppedEngine<Dynamics>::take_speed(double largest_speed) {
     refreshed_speed_ = communicator_.max(largest_speed);
     largest_speed_ = std::max(largest_speed_, refreshed_speed_);

@@ -6,7 +6,8 @@
 //
 // Then for each micro-step of the window, on all ranks at the same time:
 //
-//   resolve       Local rounds decide; a distributed sort decides chains across strips.
+//   resolve       Each rank decides candidates alone as far as possible. Messages between ranks,
+//                 and for long chains a distributed sort, decide the rest.
 //   apply         Discs that collide get new states. Halos are updated. Another search follows.
 //
 // If discs are fast, a micro-step is divided into parts, each a window of its own. States do not
@@ -92,10 +93,10 @@ private:
     int part_ = 0, n_parts_ = 1;
 
     double refreshed_speed_ = 0; ///< largest speed after the last sync; 0 once it has been used
-    /// A time not later than the first change of a state since the last migration
+    /// A time before which no state has changed since the last migration
     double unchanged_until_ = 0;
 
-    /// Upper bound of speeds in the next window, relative to the largest speed
+    /// Upper bound of speeds in the next window, relative to the largest speed at its start
     double speed_allowance_ = 1.02;
     /// Collisions per disc and micro-step in the last sync interval
     double hits_per_micro_step_ = 0;

@@ -49,8 +49,8 @@ struct Study {
     Tuning tuning;
 };
 
-/// Makes the initial state with this number, independent of the others. Generated discs get another
-/// seed; discs from a file are first run for another number of collisions.
+/// Makes initial state `number`. The states are independent, because each has its own seed or, if
+/// the discs come from a file, its own number of collisions before the trials.
 TrialStart make_start(const Study& study, int number) {
     const double approach = study.options.approach;
     if (study.scene.generator == Generator::file)
@@ -82,13 +82,13 @@ double cost_of(const RunSetting& setting) {
                                                   : static_cast<double>(setting.micro_steps) + 4;
 }
 
-/// One trial of a study: a start, a repetition, a setting.
+/// One trial of a study: a setting, the number of an initial state, and the number of a repetition.
 struct Item {
     int start = 0, repetition = 0;
     RunSetting setting;
 };
 
-/// This process's share of the trials, sorted by start, then by repetition, then by setting.
+/// The trials that this process runs, sorted by initial state, then by repetition, then by setting.
 std::vector<Item> items_of(const StudyOptions& options, const std::vector<RunSetting>& settings,
                            int n_repetitions) {
     std::vector<Item> items;
@@ -101,7 +101,8 @@ std::vector<Item> items_of(const StudyOptions& options, const std::vector<RunSet
     return items;
 }
 
-/// Makes each start once; calls `begin(start)`, then `run(item, start)` for the start's items.
+/// Makes each initial state once and calls `begin(start)` for it, and then `run(item, start)` for
+/// each of its trials.
 template <class Begin, class Run>
 void run_all(const Study& study, const std::vector<Item>& items, const Begin& begin,
              const Run& run) {
@@ -124,8 +125,8 @@ void run_all(const Study& study, const std::vector<Item>& items, const Begin& be
     }
 }
 
-/// Runs the setting and returns the discs, by id, at each sample; a disc collides about once
-/// between two samples. Throws InputError if a run cannot continue.
+/// Runs the scene with this setting, and returns the discs, in order of id, every `every` steps.
+/// Throws InputError if a run cannot continue.
 std::vector<std::vector<InputDisc>> trace(const Study& study, const RunSetting& setting,
                                           const TrialStart& start, std::int64_t every,
                                           std::int64_t steps) {

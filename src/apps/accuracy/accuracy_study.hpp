@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The two studies of `carrom accuracy`. One measures how settings change the collision rate, the
-// pressure and the cost. The other measures how far discs move away from where they are in the
-// exact run, which is event-driven. Both run every setting from equal initial states.
+// pressure and the cost. The other measures how far discs depart from their positions in the exact
+// run, which is event-driven. Both run every setting from the same initial states.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ enum class Formulas {
     usual,
     stable,
     all
-}; ///< usual: stable formula in double precision; stable: also in single precision; all: naive, too
+}; ///< usual: stable formula, double precision; stable: + single precision; all: + naive formula
 
 struct StudyOptions {
     std::string table = "accuracy.csv";
@@ -28,13 +28,14 @@ struct StudyOptions {
     bool quiet = false;
 };
 
-/// Measures costs and errors of K = 1, 2, 4, ... micro-steps per step in both methods. A repetition
-/// runs all settings in turn. Throws InputError. Called on one rank.
+/// Measures costs and errors of K = 1, 2, 4, ... micro-steps per step in both methods. Each
+/// repetition runs all settings one after the other. Throws InputError. Called on one rank.
 void study_costs(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                  const StudyOptions& options, const Communicator& ranks);
 
-/// Measures distances of discs from their positions in the exact run, about once per collision of a
-/// disc, with K = 1, 16, 256, ... micro-steps per step. Throws InputError. Called on one rank.
+/// Runs K = 1, 16, 256, ... micro-steps per step, and measures how far discs are from their
+/// positions in the exact run, at intervals in which a disc collides about once. Throws InputError.
+/// Called on one rank.
 void study_distances(const SceneParameters& scene, const std::vector<InputDisc>& discs,
                      const StudyOptions& options, const Communicator& ranks);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lines of the tables of `carrom accuracy`: one line for each trial or, in the table of
-// distances against time, one for each sample.
+// The lines of the tables that `carrom accuracy` writes: one for each trial in the table of costs,
+// and one for each sample in the table of distances against time.
 #pragma once
 
 #include <string>
@@ -9,21 +9,22 @@
 
 namespace carrom {
 
-/// The first columns of a line; no two lines of a table agree in all of them.
+/// The trial to which a line of a table belongs.
 struct TrialKey {
     int start = 0; ///< number of the initial state, from 0
     RunSetting setting;
     TrialLength length;
-    int repetition = 0; ///< number of the repetition, which measures the cost of a trial again
+    int repetition = 0; ///< number from 0; repetitions measure the cost of the same trial again
 };
 
-/// Distances between the positions of the same disc in two runs, over all discs, in diameters.
+/// The distance between the positions of a disc in two runs: averages over all discs, in diameters.
 struct Distance {
     double root_mean_square = 0, median = 0;
 };
 
-/// The results of a trial. If it could not be run to its end, `failure` has the reason and there
-/// are no numbers. `distance` is the distance to the exact run at TrialLength::early_step.
+/// The results of a trial. If it could not be run to its end, `failure` is the reason, and the
+/// other members are not set. `distance` compares the discs with those of the exact run at
+/// TrialLength::early_step.
 struct TrialOutcome {
     Trial trial;
     Distance distance;

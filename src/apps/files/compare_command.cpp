@@ -72,7 +72,7 @@ std::vector<Problem> reasons_against(const SceneParameters& scene) {
     return problems;
 }
 
-/// Reads the scene and leaves `stream` at the first line of discs, on rank 0. **Collective.**
+/// Reads the scene. On rank 0 `stream` is then at the first line of discs. **Collective.**
 SceneParameters read_scene_on_all(const CompareOptions& options,
                                   std::unique_ptr<std::istream>& stream,
                                   const Communicator& ranks) {
@@ -87,7 +87,7 @@ SceneParameters read_scene_on_all(const CompareOptions& options,
     return scene;
 }
 
-/// Compares step after step; returns whether all lines agree. **Collective.**
+/// Compares the lines with the runs step by step; returns whether all agree. **Collective.**
 bool grade(ComparedRuns& runs, Grader& grader, const Communicator& ranks) {
     int goes_on = 1, has_left_runs = 0, is_right = 0;
     for (std::int64_t step = 0; goes_on == 1; ++step) {

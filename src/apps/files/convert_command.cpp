@@ -42,7 +42,7 @@ std::vector<std::size_t> other_columns(const FileSummary& summary) {
     return places;
 }
 
-/// Chemical symbols, because readers of extended XYZ accept no other names. X is a dummy symbol.
+/// Names of species: readers of extended XYZ accept only chemical symbols. X is a dummy symbol.
 constexpr std::array<std::string_view, 119> symbols = {
     "X",  "H",  "He", "Li", "Be", "B",  "C",  "N",  "O",  "F",  "Ne", "Na", "Mg", "Al", "Si",
     "P",  "S",  "Cl", "Ar", "K",  "Ca", "Sc", "Ti", "V",  "Cr", "Mn", "Fe", "Co", "Ni", "Cu",
@@ -53,18 +53,19 @@ constexpr std::array<std::string_view, 119> symbols = {
     "Th", "Pa", "U",  "Np", "Pu", "Am", "Cm", "Bk", "Cf", "Es", "Fm", "Md", "No", "Lr", "Rf",
     "Db", "Sg", "Bh", "Hs", "Mt", "Ds", "Rg", "Cn", "Nh", "Fl", "Mc", "Lv", "Ts", "Og"};
 
-/// Finds the species of discs, one disc after another.
+/// Finds the species of discs, which are passed in order of id.
 class Bodies {
 public:
     explicit Bodies(const FileSummary& summary)
         : species_(summary.species), all_{summary.n_rows, summary.radius, 1} {}
-    /// Returns the species of a disc. Call it in the order of ids; id 0 begins a new frame.
+    /// Returns the species of a disc. Call it in order of id; id 0 begins a new frame.
     const Species& of(std::uint64_t id) {
         if (id == 0) k_ = 0, end_ = species_.empty() ? all_.count : species_[0].count;
         while (id >= end_) end_ += species_[++k_].count;
         return species_.empty() ? all_ : species_[k_];
     }
-    /// The symbol of the disc of the last call: H, He and so on for species 0, 1, ..., or X.
+    /// The symbol of the disc that was last passed to `of`: H, He, ... for species 0, 1, ...; X if
+    /// there are no species or too many.
     std::string_view symbol() const {
         return species_.empty() || species_.size() >= symbols.size() ? symbols[0] : symbols[k_ + 1];
     }
@@ -83,7 +84,7 @@ void append_header(fmt::memory_buffer& out, const FileSummary& summary, std::siz
     std::string others;
     for (const std::size_t k : other_columns(summary))
         others += fmt::format(":{}:R:1", summary.columns[k]);
-    std::string corner; // the origin, in OVITO's form
+    std::string corner; // position of the box's corner, as OVITO reads it
     if (summary.origin != std::array<double, 2>{})
         corner = fmt::format("Origin=\"{} {} 0\" ", 0 - summary.origin[0], 0 - summary.origin[1]);
     fmt::format_to(std::back_inserter(out),
@@ -201,7 +202,7 @@ std::string reason_against(const FileSummary& summary, Format format) {
     return {};
 }
 
-/// Converts the file on one rank. Returns the reason why the output failed; empty if it did not.
+/// Converts the file on one rank. Returns why the output could not be written, or an empty text.
 std::string convert_alone(const std::string& path, Format format, const std::string& target) {
     const FrameFile file(path);
     std::vector<NamedFile> sources = {{"the file to convert", path}};

@@ -43,7 +43,7 @@ std::string frames_text(const std::vector<std::int64_t>& steps) {
     return steps.size() > 1 ? text + fmt::format(", every {}", every) : text;
 }
 
-/// The time span of a log. Collisions in a log are sorted by time.
+/// The first and last steps and times of a log, whose rows are sorted by time.
 std::string span_text(const FrameFile& file) {
     const FileSummary& summary = file.summary();
     const std::uint64_t n = summary.n_rows;
@@ -56,7 +56,7 @@ std::string span_text(const FrameFile& file) {
                                               last[step][0], first[time][0], last[time][0]));
 }
 
-/// The fields of a trajectory, by the names that scenes use.
+/// The names of a trajectory's fields, as scenes spell them.
 std::string fields_text(const FileSummary& summary) {
     std::vector<std::string> fields;
     const auto add = [&](const char* field, const char* column) {
@@ -77,7 +77,7 @@ std::string trajectory_text(const FileSummary& summary) {
            labelled_line("frames", frames_text(summary.steps));
 }
 
-/// One line for each species, or one line in all if the discs are equal.
+/// One line for each of the first 20 species, or a single line if all discs are equal.
 std::string species_text(const FileSummary& summary) {
     constexpr std::size_t most_lines = 20;
     if (summary.species.empty())

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Describes a number in the state that no run can produce; empty if all numbers are possible.
+/// Describes a number of the disc that no run can produce; empty if all its numbers are possible.
 std::string flaw_of(const DiscState& disc, double radius, const CheckpointHeader& header,
                     const Extent& box) {
     const double clock = header.clock();
@@ -33,8 +33,7 @@ std::string flaw_of(const DiscState& disc, double radius, const CheckpointHeader
                    : fmt::format("disc {} has left the box, yet moves", disc.id);
     const DiscState shown = header.frame.in_box(disc, clock);
     const double x = shown.x, y = shown.y;
-    // Within a micro-step a disc may be slightly beyond its wall. The rounding of L - r may also
-    // put it there.
+    // A disc may be slightly beyond a wall within a micro-step, or because L - r is rounded.
     const double slack = 1e-6 * header.radius + 0x1p-50 * header.box().longest();
     const double margin = radius - slack;
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(disc.vx) ||
@@ -49,7 +48,8 @@ std::string flaw_of(const DiscState& disc, double radius, const CheckpointHeader
     return {};
 }
 
-/// The box from whose sides centres must be at least a radius away (flaw_of). **Not collective.**
+/// The box for `flaw_of`: centres must be at least a radius inside of its sides.
+/// **Not collective.**
 Extent room_of(const CheckpointHeader& header, const Effects& effects) {
     Extent box = extent_at(effects, header.box(), static_cast<double>(header.step));
     const auto make_room = [&](std::size_t side, double& line, double outwards) {
@@ -65,7 +65,8 @@ Extent room_of(const CheckpointHeader& header, const Effects& effects) {
     return box;
 }
 
-/// Checks the discs; reading has checked the bytes and the hash. **Collective.**
+/// Checks the numbers of the discs. `read_checkpoint` checks the bytes and the state hash.
+/// **Collective.**
 void verify_checkpoint(const std::string& path, const Communicator& ranks) {
     const Checkpoint checkpoint = read_checkpoint(path, ranks);
     const CheckpointHeader& header = checkpoint.header;
@@ -98,7 +99,7 @@ void refuse(const std::string& path, const std::string& text) {
     throw InputError({{path, 0, text}});
 }
 
-/// Reads rows of a file by the names of columns; a column that the file lacks reads as 0.
+/// Reads rows of a file. Columns are accessed by name; a column that the file lacks has only zeros.
 class NamedRows {
 public:
     explicit NamedRows(const FrameFile& file) : file_(file) {}
@@ -123,9 +124,9 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Whether a run can have a disc at this position. A disc leaves through an open side when its
+/// Whether a run can produce a disc at this position. A disc leaves through an open side when its
 /// centre is a radius beyond it, and then stays at rest. In the time-stepped method a disc that a
-/// collision has pushed out may fly on until the end of its micro-step.
+/// collision has pushed out may fly on until the end of the micro-step.
 bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summary, const Box& box) {
     if (!rows.are_finite(i)) return false;
     if (!summary.has("x")) return true;
@@ -141,8 +142,8 @@ bool is_possible(const NamedRows& rows, std::size_t i, const FileSummary& summar
     for (std::size_t side = 0; side < beyond.size(); ++side) {
         if (beyond[side] <= summary.amplitudes[side]) continue;
         if (!summary.open_boundaries[side]) return false;
-        // Without velocities the flight of the disc is unknown. A disc that is pushed out over a
-        // corner leaves through one side, so it may be far beyond the other one.
+        // Without velocities it is unknown how far the disc may have flown. A disc that is pushed
+        // out over a corner leaves through one side, so it may be far beyond the other one.
         const bool is_bounded = summary.has("vx") && !has_left;
         if (is_bounded && beyond[side] > reach + std::max(0.0, rate[side])) return false;
     }
@@ -166,7 +167,8 @@ void verify_frames(const FrameFile& file, const std::string& path) {
     }
 }
 
-/// Whether `id` is possible. Files of other programs may lack the number of discs.
+/// Whether there can be a disc with this id. Any id is possible if the file lacks the number of
+/// discs, as files of other programs may.
 bool is_disc(double id, const FileSummary& summary) {
     return id >= 0 && (summary.n_discs == 0 || id < static_cast<double>(summary.n_discs));
 }

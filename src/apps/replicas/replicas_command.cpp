@@ -50,7 +50,7 @@ struct ReplicasOptions {
     std::string folder;
 };
 
-/// The keys of random seeds. Each replica gets other seeds.
+/// The keys of the scene's random seeds, to which replica k adds k.
 std::vector<const Key*> seeds_of(const SceneParameters& scene) {
     std::vector<const Key*> seeds;
     for (const Key& key : keys())
@@ -58,7 +58,7 @@ std::vector<const Key*> seeds_of(const SceneParameters& scene) {
     return seeds;
 }
 
-/// The options of one replica.
+/// The options of the run of replica `k`.
 RunOptions options_of(const ReplicasOptions& options, const SceneParameters& scene,
                       std::int64_t k) {
     RunOptions one = options.run;
@@ -97,10 +97,10 @@ ExitCode run_mine(const ReplicasOptions& options, const SceneParameters& scene,
     return ExitCode::success;
 }
 
-/// Runs all replicas; false if a stop was requested. Every rank throws if a replica failed.
+/// Runs all replicas; returns false if a stop was requested. Every rank throws if a replica failed.
 bool all_are_done(const ReplicasOptions& options, const SceneParameters& scene,
                   const Communicator& ranks) {
-    constexpr double patience_seconds = 1e9; // other ranks may still have long runs
+    constexpr double patience_seconds = 1e9; // the other ranks' runs may take long
     ExitCode code = ExitCode::success, failure_code = ExitCode::success;
     std::string failure;
     try {

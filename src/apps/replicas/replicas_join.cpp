@@ -57,7 +57,8 @@ Json or_null(double number) { return std::isfinite(number) ? Json(number) : Json
 double number_of_json(const Json& json) { return json.is_number() ? json.get<double>() : NAN; }
 std::string field(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
 
-/// An average in a report; `path` is the JSON pointer to it, or to its number if it has no error.
+/// An average in a report. `path` is the JSON pointer to an object with value and error, or to a
+/// plain number.
 struct AveragedColumn {
     std::string name, path;
 };
@@ -86,7 +87,8 @@ const std::vector<AveragedColumn>& averaged_columns() {
     return columns;
 }
 
-/// A part of an average, "value" or "error"; a plain number is its own value and has no error.
+/// The `part` ("value" or "error") of an average; NaN if it is missing. A plain number has no
+/// error.
 double part_of(const Json& report, const AveragedColumn& quantity, const char* part) {
     const Json::json_pointer path(quantity.path);
     if (!report.contains(path)) return NAN;
@@ -103,23 +105,23 @@ double value_in(const Json& report, const AveragedColumn& quantity) {
 struct Claims {
     double claimed = NAN;       ///< root mean square of the reported errors; NaN if there are none
     double ratio = NAN;         ///< scatter divided by `claimed`
-    std::size_t n_changing = 0; ///< number of replicas that are still changing
-    std::size_t n_silent = 0;   ///< number of others without an error, mostly because of short runs
+    std::size_t n_changing = 0; ///< replicas in which the average is still changing
+    std::size_t n_silent = 0;   ///< other replicas without an error, mostly because they are short
 
     bool are_too_small(std::size_t n_replicas) const;
 };
 
-/// A limit of chi squared divided by its degrees of freedom, exceeded by chance once in 1000 cases
-/// (Wilson and Hilferty, Proc. Natl. Acad. Sci. 17, 684 (1931)).
+/// The chi squared per degree of freedom that is exceeded by chance in one of 1000 cases (Wilson
+/// and Hilferty, Proc. Natl. Acad. Sci. 17, 684 (1931)).
 double most_of_chi_squared(double freedom) {
     constexpr double deviations = 3.09;
     const double spread = 2 / (9 * freedom);
     return std::pow(1 - spread + deviations * std::sqrt(spread), 3);
 }
 
-/// Whether the reported errors are clearly too small. Errors from ten independent samples are too
-/// small by more than a tenth (statistics/blocking.hpp), so a small excess of the scatter does not
-/// justify a warning.
+/// Whether the reported errors are clearly too small. Errors from ten independent samples are on
+/// average too small by more than a tenth (statistics/blocking.hpp), so a small excess of the
+/// scatter does not justify a warning.
 bool Claims::are_too_small(std::size_t n_replicas) const {
     constexpr double allowed = 1.15;
     return n_replicas > 1 &&
@@ -143,7 +145,7 @@ Claims claims_of(const std::vector<Json>& reports, const AveragedColumn& quantit
     return claims;
 }
 
-/// Collects signs that single runs are too short, and makes a warning of them.
+/// Collects signs that single runs are too short, and lists them in one warning.
 class SingleRuns {
 public:
     explicit SingleRuns(std::size_t n_replicas) : n_replicas_(n_replicas) {}
@@ -203,7 +205,8 @@ std::string remark_of_means(const std::string& table) {
     return fmt::format("# {}: {}\n", table, means_remark);
 }
 
-/// Whether a file in the replicas' folder was written by replicas, so that it may be replaced.
+/// True unless the file has a name that replicas give to their results, but was written by another
+/// program.
 bool may_be_replaced(const std::filesystem::path& path) {
     const std::string name = path.filename().string(), stem = path.stem().string();
     if (name == "replicas.json") {
@@ -231,13 +234,14 @@ std::string lines_of_replicas(const std::vector<Replica>& replicas,
     return text + '\n';
 }
 
-/// Whether a column has the errors that each run has estimated for another column.
+/// Whether a column contains the errors that each run estimated for another column.
 bool is_error_of_run(const std::string& column, const Json& table) {
     return column.ends_with("_error") && table.contains(column.substr(0, column.size() - 6));
 }
 
-/// A table with a column `NAME_error` after each column in which replicas differ. The errors
-/// of single runs are averaged as `NAME_run_error`, so that no two columns have the same name.
+/// Means of a table over the replicas. A column `NAME_error` follows each column in which replicas
+/// differ. The errors of single runs are averaged as `NAME_run_error`, so that no two columns have
+/// the same name.
 class JoinedTable {
 public:
     JoinedTable(std::string name, const std::vector<Json>& reports) : name_(std::move(name)) {
@@ -344,7 +348,7 @@ JoinedReplicas join_replicas(const std::vector<Replica>& replicas, const std::st
         std::vector<double> values;
         for (const Json& report : reports) values.push_back(value_in(report, quantity));
         const Mean mean = mean_of(values);
-        if (!std::isfinite(mean.value)) continue; // NaN if a replica lacks it
+        if (!std::isfinite(mean.value)) continue; // NaN if a replica does not report it
         const double scatter = mean.error * std::sqrt(static_cast<double>(replicas.size()));
         const Claims claims = claims_of(reports, quantity, scatter);
         joined[quantity.name] = {{"value", mean.value},

@@ -17,11 +17,10 @@ struct Replica {
     std::uint64_t seed = 0;
 };
 
-/// One problem for each file in the folder that the replicas would replace although no replicas
-/// have written it.
+/// One problem for each file in the folder that replicas have not written, but might replace.
 std::vector<Problem> problems_with_joined_files(const std::string& folder);
 
-/// The last step in the report of the folder; nullopt if there is no complete report.
+/// The last step of the run in the folder, from its report; nullopt if there is no complete report.
 std::optional<std::int64_t> last_step_reported(const std::string& folder);
 
 /// The joint results as text for the terminal.
@@ -31,7 +30,7 @@ struct JoinedReplicas {
 };
 
 /// Reads the replicas' reports and writes to `folder`:
-///   replicas.csv   a line for each replica: folder, seed, state hash, averages
+///   replicas.csv   a line for each replica: number, seed, state hash, averages
 ///   replicas.json  each average over the replicas: value and standard error of the mean, and how
 ///                  the scatter between replicas compares with the errors that they report
 ///   NAME.csv       each measured table with equal shape in all replicas: means and their errors

@@ -77,8 +77,8 @@ std::vector<Option> run_options(RunOptions& run) {
 
 namespace {
 
-/// Removes `KEY` where the user wrote `--set KEY VALUE` instead of KEY=VALUE. VALUE remains as an
-/// extra word, which ends the run with an error before a scene is read.
+/// Removes `KEY` and appends a problem if the user wrote `--set KEY VALUE` instead of KEY=VALUE.
+/// VALUE is then an extra word, which is an error before the scene is read.
 void take_out_keys_alone(std::vector<std::string>& overrides, std::vector<Problem>& problems) {
     std::erase_if(overrides, [&problems](const std::string& text) {
         const bool is_alone = !text.empty() && text.find('=') == std::string::npos;

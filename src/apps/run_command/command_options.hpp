@@ -13,8 +13,8 @@ namespace carrom {
 /// The options of `carrom run`. Their values are stored in `run`, which must outlive the options.
 std::vector<Option> run_options(RunOptions& run);
 
-/// Adds the settings of keys that have an option of their own, and appends problems of options that
-/// exclude each other. Call it when all options are read.
+/// Adds an override for each option that sets a key, such as --steps, and appends problems of
+/// options that exclude each other. Call it when all options have been read.
 RunOptions completed(RunOptions options, std::vector<Problem>& problems);
 
 } // namespace carrom

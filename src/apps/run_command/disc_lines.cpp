@@ -24,7 +24,8 @@ std::vector<LocalIndex> order_by_id(std::span<const DiscState> discs) {
     return order;
 }
 
-/// The numbers of a line. Adding +0 turns -0 into +0: states with the same hash give the same text.
+/// The numbers of a line. Adding 0.0 turns -0.0 into 0.0, so that states with the same hash give
+/// the same text.
 DiscLine line_of(const DiscState& disc, double clock, double velocity_unit, const Origin& origin) {
     return {disc.id,
             disc.x_at(clock) - origin.x + 0.0,
@@ -35,7 +36,8 @@ DiscLine line_of(const DiscState& disc, double clock, double velocity_unit, cons
             disc.wall_collisions};
 }
 
-/// Appends a number with std::to_chars: the digits of printf, eight times as fast.
+/// Appends a space and a number by std::to_chars, which gives the digits of printf, but is eight
+/// times as fast.
 void append_number(fmt::memory_buffer& text, double number, int digits) {
     std::array<char, 352> word; // long enough for any double with 16 decimals
     const auto style = digits == RunOptions::round_trip_digits ? std::chars_format::general

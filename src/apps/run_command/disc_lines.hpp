@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The discs of a step as lines of text, in the order of ids: `step id x y vx vy`, and on the last
-// step also the disc's numbers of pair and wall collisions.
+// The discs of a step as lines of text, in order of id: `step id x y vx vy`. On the last step a
+// line also has the disc's numbers of pair and wall collisions.
 //
-// Each rank sorts its own discs by id and sends them to rank 0 in slabs of consecutive ids. Cost: a
-// sort of indices (4 bytes a disc), sending every disc, and 0.8 us a line on rank 0.
+// Each rank sorts its own discs by id and sends them to rank 0 in slabs of consecutive ids. Cost:
+// each rank sorts indices (4 bytes a disc) and sends its discs; rank 0 needs 0.8 us a line.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ public:
     DiscLines(const SceneParameters& scene, const std::string& path, int digits,
               const Communicator& ranks, std::uint64_t slab = default_slab);
 
-    /// Lines of `last_step` include counters of collisions; lines of later steps are not written.
+    /// Lines of `last_step` include numbers of collisions; lines of later steps are not written.
     void end_at(std::int64_t last_step) { last_step_ = last_step; }
 
     /// The next step after `step` whose lines must be written; at most the last step.
@@ -45,7 +45,7 @@ public:
 
     bool is_due(std::int64_t step) const;
 
-    /// Writes the present step. If that fails every rank throws. **Collective.**
+    /// Writes the lines of the present step. If that fails every rank throws. **Collective.**
     void write(const DiscSystem& system);
 
     /// Call it after the last step. Every rank throws unless all lines have been written.

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-// Seconds between two prints on a terminal, where progress then seems continuous at little cost.
+// Seconds between two prints on a terminal: progress seems continuous, and prints cost little.
 constexpr double terminal_interval = 0.2;
 constexpr double first_log_interval = 5;
 constexpr double longest_log_interval = 1800;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The progress of a run on standard error. A terminal gets one line that is rewritten, a batch log
-// gets a new line at each print.
+// The progress of a run on standard error. On a terminal one line is rewritten; a batch log gets a
+// new line at each print.
 //
-// The intervals between lines in a log grow, so that a run of a week prints some hundred lines.
-// Under mpirun standard error is a pipe even at a terminal, so it gets lines as a log does.
+// The intervals between lines in a log grow to half an hour, so that a run of a week prints about
+// 350 lines. Under mpirun standard error is a pipe even at a terminal, so the lines are printed as
+// in a log.
 #pragma once
 
 #include <chrono>
@@ -25,7 +26,7 @@ public:
     void show(const std::string& text);
     /// Ends the rewritten line, so that the next output starts on a line of its own.
     void finish();
-    /// Seconds since this object was made.
+    /// Seconds since this object was constructed.
     double seconds() const;
 
 private:

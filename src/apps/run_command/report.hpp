@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report of a finished run, for programs to read.
+// The report of a finished run, in a form for other programs.
 #pragma once
 
 #include <string>

@@ -79,7 +79,8 @@ void print_result(const RunOptions& options, const SceneParameters& scene, const
     agree(ranks, failure.empty(), failure, ExitCode::output_failure);
 }
 
-/// The error of a run that abandoned the step after `step`; `kept` names the stored state.
+/// The error of a run that, on request, abandoned the step after `step`. `kept` describes the state
+/// that is stored.
 StopRequested given_up(std::int64_t step, const std::string& kept, const SceneParameters& scene) {
     return StopRequested(fmt::format(
         "stopped on request inside a step after {} of {}, which would take too long; {}{}", step,
@@ -108,7 +109,7 @@ public:
     }
     /// The last step that has been completed.
     std::int64_t last_step() const { return last_step_; }
-    /// Ends progress and lines of discs. **Collective.**
+    /// Ends the progress line, and closes the output of discs. **Collective.**
     void finish() {
         progress_.finish();
         lines_.close();
@@ -128,14 +129,14 @@ private:
     std::int64_t last_step_;
 };
 
-/// Runs to the end of the scene with all outputs. Returns false if a request stopped the run before
-/// its end. **Collective.**
+/// Runs to the end of the scene with all outputs. Returns false if the run was stopped on request
+/// before its end. **Collective.**
 bool step_to_end(Run& run, const RunOptions& options, FolderGuard& guard, double& output_seconds) {
     const SceneParameters& scene = run.scene();
     Stopwatch watch;
     Recordings recordings(run, options.messages);
     Checkpoints checkpoints(run, scene.checkpoint);
-    // Outputs are replaced and removed only from here on, when the whole input has been checked.
+    // Older outputs are replaced and removed only from here on, after all input has been checked.
     prepare_outputs(scene, !run.is_restart(), run.ranks());
     ShownSteps shown(run, options);
     recordings.begin();
@@ -183,7 +184,8 @@ void warn_of_threads(int threads, bool are_chosen, const Communicator& ranks) {
         print_message("warning: {}: running with {} threads a rank\n", unheeded, threads);
 }
 
-/// Warns if this machine's arithmetic gives other bits than other machines. **Collective.**
+/// Warns if results on this machine differ in their bits from those on other machines.
+/// **Collective.**
 void warn_of_other_bits(const Communicator& ranks) {
     const std::string difference = warning_of_other_bits(ranks);
     if (ranks.is_root() && !difference.empty()) print_message("warning: {}\n", difference);
@@ -197,7 +199,7 @@ ExitCode run_scene(RunOptions options, const std::vector<Problem>& problems,
     Stopwatch watch;
     std::optional<StopSignals> signals;
     if (options.input != "-")
-        signals.emplace(ranks.is_root()); // standard input may take long to read, and until then a
+        signals.emplace(ranks.is_root()); // reading standard input may take long, and meanwhile a
                                           // signal must end the program
     Loaded loaded = load(options, problems, ranks);
     if (!signals) signals.emplace(ranks.is_root());

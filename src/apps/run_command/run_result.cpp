@@ -24,7 +24,7 @@ double disc_steps(const RunResult& result) {
            static_cast<double>(result.last_step - result.first_step);
 }
 
-/// The largest of the ranks' times over their mean; 1 if all are 0. **Collective.**
+/// The largest of the ranks' times divided by their mean; 1 if all times are 0. **Collective.**
 double imbalance_of(double seconds, const Communicator& ranks) {
     const auto nanoseconds = static_cast<std::uint64_t>(
         1e9 * seconds); // integers, because their sum does not depend on the order of the ranks
@@ -122,7 +122,8 @@ double collisions_per_disc(const SceneParameters& scene, const RunResult& result
 
 namespace {
 
-/// With this number of samples errors are a fifth too small on average (statistics/blocking.hpp).
+/// With this number of independent samples the errors are a fifth too small on average
+/// (statistics/blocking.hpp).
 constexpr int fewest_independent_samples = 8;
 
 /// A text that lists the watched numbers which still change or have few independent samples, and
@@ -204,8 +205,9 @@ double ideal_overlaps(const SceneParameters& scene) {
 
 } // namespace
 
-/// In the time-stepped method a lost collision lets two discs overlap. So the overlaps, relative to
-/// an ideal gas, show how many are lost. 0.8 and 3.2 are fitted to lost_collisions.csv.
+/// In the time-stepped method a lost collision lets two discs overlap. So the number of overlaps,
+/// relative to an ideal gas, shows how many collisions are lost. The factors 0.8 and 3.2 are fitted
+/// to lost_collisions.csv.
 LostCollisions lost_collisions(const SceneParameters& scene, const RunResult& result) {
     const double ideal = ideal_overlaps(scene);
     if (scene.method != Method::time_stepped || !(ideal > 0) ||
@@ -251,9 +253,9 @@ double guarded_share(const RunResult& result) {
 }
 
 std::string warning_of_guarded_collisions(const SceneParameters& scene, const RunResult& result) {
-    // With lasting contacts the next sync takes the energy that guarded collisions spare.
+    // With lasting contacts the next sync removes the energy that guarded collisions do not.
     if (scene.effects.lasting_speed > 0) return {};
-    constexpr std::uint64_t fewest = 100; // with fewer collisions the share is too uncertain
+    constexpr std::uint64_t fewest = 100; // with fewer of them the share is too uncertain
     const double share = guarded_share(result);
     if (!(share > 0.01) || result.end.guarded_collisions < fewest) return {};
     const bool is_named = scene.effects.contact.contact_time > 0;

@@ -24,16 +24,16 @@ namespace carrom {
 /// ranks, as each comment says. The totals do not depend on the numbers of ranks and threads.
 struct RunResult {
     Totals start, end;
-    std::vector<EndNumber> end_numbers; ///< numbers of effects at the end, simultaneous collisions
+    std::vector<EndNumber> end_numbers; ///< numbers of effects, and of simultaneous collisions
     std::int64_t first_step = 0, last_step = 0;
     std::optional<StopReason> stop_reason; ///< why the run ended before the scene's last step
     int ranks = 1;
     int ranks_across = 1;    ///< largest number of ranks that share a strip
     int threads = 1;         ///< threads of each rank; the largest number if ranks differ
     DeviceFacts device;      ///< the GPU; its name is empty if there was none
-    double wall_seconds = 0; ///< time of stepping, of the slowest rank; without output
+    double wall_seconds = 0; ///< time that the slowest rank spent on steps, without output
     Averages averages;       ///< averages over the run, including the parts before restarts
-    std::vector<WatchedNumber> watched; ///< psi6 of dense discs; energy if it can change
+    std::vector<WatchedNumber> watched; ///< psi6 if discs are dense; energy if it can change
     std::vector<MeasuredTable> tables;  ///< the tables that the scene measures
     std::vector<std::string> doubts_of_tables;
     RollbackCounts runs;        ///< rollbacks of the event-driven method
@@ -59,8 +59,8 @@ double ratio(double part, double whole);
 
 double ns_per_disc_step(const RunResult& result);
 
-/// Whether a phase is a rank's own work. It is not if the rank waits for other ranks in it (wait,
-/// exchange, conflicts), nor if the phase is outside of stepping (set-up, output).
+/// Whether a phase is a rank's own work in steps. It is not if the rank waits for other ranks
+/// (wait, exchange, conflicts), or if the phase is not part of the steps (set-up, output).
 bool is_own_work(std::string_view phase);
 /// The time that a rank has spent on its own work.
 double busy_seconds(const PhaseSeconds& phases);
@@ -72,7 +72,7 @@ double energy_drift(const RunResult& result);
 /// with this number.
 double collisions_per_disc(const SceneParameters& scene, const RunResult& result);
 
-/// Rejected candidates divided by all candidates, since this process began.
+/// Rejected candidates divided by all candidates; both are counted since this process began.
 double rejected_share(const RunResult& result);
 
 /// One line on averages and `watched` numbers that are still changing or whose errors rest on few
@@ -93,7 +93,7 @@ std::string warning_of_lost_collisions(const SceneParameters& scene, const RunRe
 
 /// The energy that guarded collisions would have lost, divided by the energy that restitution would
 /// have taken without the guard (dynamics/contact_guard.hpp). Contacts at rest are not included.
-/// Sums since this process began.
+/// Both energies are summed since this process began.
 double guarded_share(const RunResult& result);
 /// A warning if `guarded_share` exceeds 0.01 because of the scene's contact time, else empty.
 std::string warning_of_guarded_collisions(const SceneParameters& scene, const RunResult& result);

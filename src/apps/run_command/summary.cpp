@@ -74,7 +74,7 @@ std::string estimate_text(const Estimate& estimate) {
     if (std::isnan(estimate.value)) return "undefined";
     if (estimate.is_conserved) return fmt::format("{:.7g} (conserved)", estimate.value);
     const bool has_ends = std::isfinite(estimate.first) && std::isfinite(estimate.last);
-    // NaN: the first or the last block has no collision, or no disc
+    // They are NaN if the first or the last block has no collision, or no disc.
     if (estimate.is_changing && !has_ends)
         return fmt::format("{:.5g} (still changing)", estimate.value);
     if (estimate.is_changing)
@@ -131,7 +131,7 @@ std::string measured_text(const SceneParameters& scene, const std::vector<Measur
                        tables.front().remarks.front());
 }
 
-/// Text such as "120 of 400 discs: left 70, top 50" if a side is open.
+/// How many discs departed, such as "120 of 400 discs: left 70, top 50"; empty if no side is open.
 std::string departed_text(const SceneParameters& scene, const Totals& totals) {
     std::uint64_t all = 0;
     std::string boundaries;
@@ -236,7 +236,8 @@ std::string guarded_line(const RunResult& result) {
                                      result.end.guarded_collisions, 100 * guarded_share(result)));
 }
 
-/// The line about rejected candidates or repeated windows, depending on the method.
+/// The line on rejected candidates in the time-stepped method, or the lines on guarded collisions
+/// and repeated windows in the event-driven method.
 std::string method_line(const SceneParameters& scene, const RunResult& result) {
     if (scene.method == Method::event_driven)
         return guarded_line(result) + labelled_line("windows", windows_text(result.runs));

@@ -124,8 +124,8 @@ void declare(CLI::App& app, const Subcommand& subcommand) {
     command->allow_extras();
 }
 
-/// Problems of words that belong to no option. If an option is unknown, only this is reported,
-/// because the other words may be its values.
+/// Problems of words that belong to no option. If options are unknown, only these are reported,
+/// because the other words may be their values.
 std::vector<Problem> leftovers(const Subcommand& subcommand, const CLI::App& command) {
     const std::string see = std::string("; see carrom ") + subcommand.name + " --help";
     std::vector<Problem> unknown, others;

@@ -15,19 +15,20 @@ namespace carrom {
 
 namespace {
 
-/// GNU's library counts some 1000 spins in 20 to 50 microseconds, which is about what it takes to
-/// wake a thread. With 10,000, crowded cores lost half their time (docs/understanding/performance).
+/// GNU's OpenMP library needs 20 to 50 microseconds for 1000 spins, about as long as it takes to
+/// wake a thread. With 10,000 spins, cores with several threads lost half their time
+/// (docs/understanding/performance).
 constexpr const char* spins_before_sleep = "1000";
 
-/// Whether valgrind runs the program; it cannot follow a program that restarts itself.
+/// Whether the program runs under valgrind, which cannot follow a program that restarts itself.
 bool is_in_valgrind() {
     const char* const preloaded = std::getenv("LD_PRELOAD");
     return preloaded != nullptr &&
            std::string_view(preloaded).find("vgpreload") != std::string_view::npos;
 }
 
-/// Allows this thread all processors that OpenMP may use. If threads are bound, OpenMP has already
-/// bound this thread to one place, and the restarted program would inherit this limit.
+/// Allows this thread to run on all processors that OpenMP may use. If threads are bound, OpenMP
+/// has already bound this thread to one place, and the restarted program would inherit this limit.
 void unbind() {
     cpu_set_t processors;
     CPU_ZERO(&processors);

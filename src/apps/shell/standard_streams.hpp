@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps a run alive if standard error is full or closed, because a log must not end a run.
+// Keeps a run alive if standard error is full or closed, because a lost message must not end it.
 #pragma once
 
 #include <string_view>

@@ -15,7 +15,7 @@ namespace carrom {
 namespace {
 
 // Atomic, because any thread of the process may run the handler; `volatile` is not enough.
-std::atomic<int> signal_that_has_come = 0; // for the message only
+std::atomic<int> signal_that_has_come = 0; // used only in the message
 std::atomic<bool> is_answer_due = false;
 
 /// Prints a message about a signal. Signal handlers call it, so it is async-signal-safe.

@@ -45,9 +45,9 @@ struct Subcommand {
     const char* name;
     const char* help; ///< one line of help
     const char* footer;
-    std::vector<Option> options; ///< options; their targets must live as long as `action`
-    /// Returns the action when all values are known. It appends to the command line's `problems`,
-    /// or passes `problems` on to the action, which may find more.
+    std::vector<Option> options; ///< what `value` points to must live as long as `action`
+    /// Called when all values are known; returns the action. It appends to the command line's
+    /// `problems`, or passes `problems` on to the action, which may find more.
     std::function<Action(std::vector<Problem>& problems)> action;
     const char* word_too_many = "is one word too many";
 };

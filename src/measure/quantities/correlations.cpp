@@ -3,9 +3,9 @@
 // mean square displacement, velocity autocorrelation, self-intermediate scattering function,
 // non-Gaussian parameter, overlap and its susceptibility chi_4.
 //
-// Lags and origins are chosen by multiple_tau.hpp. Memory: 32 bytes for each disc, point and level,
-// and a level is added whenever the time doubles. Price of a sample: each disc is sent once, and
-// compared with some 1.5 times `correlation_points` of its earlier states.
+// Lags and origins are chosen by multiple_tau.hpp. Memory: 32 bytes for each disc, point and level.
+// A level is added whenever the measured time doubles. Each sample sends each disc once, and
+// compares it with some 1.5 times `correlation_points` of its earlier states.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -28,9 +28,10 @@ namespace {
 constexpr QuantitySetting correlation_wavenumber{"correlation_wavenumber"},
     overlap_distance{"overlap_distance"};
 constexpr std::size_t most_species = 8; ///< with more species there are no tables by species
-/// The largest number of waves in a radius; on shorter lengths all motion is free flight.
+/// The wavelength of F_s may not be less than the radius divided by this number, because on shorter
+/// lengths all motion is free flight.
 constexpr double shortest_waves = 1000;
-/// The number of consecutive ids in a run of ids. All ids of such a run are on one rank
+/// Sums are over runs of this many consecutive ids, because all ids of such a run are on one rank.
 constexpr std::uint64_t ids_of_run = Pieces::least_rows;
 
 enum Moment : std::uint8_t { squares, fourths, products, waves, overlaps, n_moments };
@@ -44,7 +45,7 @@ void check_lengths(const SceneDraft& draft) {
                  least = 2 * std::numbers::pi / scene.box.longest(),
                  most = 2 * std::numbers::pi * shortest_waves / scene.radius,
                  distance = overlap_distance.of(*scene.measurements);
-    if (k > 0 && k < least) // a value of 0 has been reported already
+    if (k > 0 && k < least) // an invalid value of 0 has been reported already
         draft.refuse({wave, quantities_key},
                      fmt::format("'{}' = {:g} is a wave that is longer than the box; take {:g} or "
                                  "more",
@@ -70,16 +71,16 @@ void check_correlations(const SceneDraft& draft) {
     if (!draft.settings.has(overlap))
         scene.measurements->derive(std::string(overlap_distance.name), 0.6 * scene.radius);
     check_lengths(draft);
-    if (!scene.measurements->measures("transport")) // that quantity makes the same check
+    if (!scene.measurements->measures("transport")) // "transport" makes the same check
         check_correlation_points(draft);
 }
 
-/// cos(2 pi t) to 1e-15, without a function call, so that loops over discs are vectorised. With
-/// std::cos, these cosines would take half of a sample's time.
+/// cos(2 pi `turns`) to 1e-15, without a function call, so that loops over discs are vectorised.
+/// With std::cos, half of a sample's time would be spent on cosines.
 inline double cosine_of_turns(double turns) {
     constexpr double rounds = 0x1.8p52; // adding this number rounds to a whole number
     const double z = std::numbers::pi / 2 * (turns - ((turns + rounds) - rounds)), x = z * z;
-    double series = 0; // sin z / z, for z up to pi / 4
+    double series = 0; // sin z / z, for |z| up to pi / 4
     for (const double factorial :
          {1307674368000.0, 6227020800.0, 39916800.0, 362880.0, 5040.0, 120.0, 6.0})
         series = 1 / factorial - x * series;
@@ -93,11 +94,11 @@ struct Comparison {
     const FollowedStates &now, &before;
     double turns_per_length, overlap_squared;
 
-    /// Adds the moments of the `n` discs from index `begin` on, at most `ids_of_run`, to the sums
-    /// of[0] .. of[n_moments - 1], in the order of ids. All terms are computed before they are
+    /// Adds the moments of the `n` discs from index `begin` on, in order of id, to the sums
+    /// of[0] to of[n_moments - 1]; `n` is at most `ids_of_run`. Terms are computed before they are
     /// added, because loops with sums in a fixed order are not vectorised.
     void add_to(double* of, std::size_t begin, std::size_t n) const {
-        // Not initialised, which saves a tenth of a sample's time.
+        // These arrays are not initialised, which saves a tenth of a sample's time.
         std::array<double, ids_of_run> square, product, wave, is_near;
         const double *const x = &now.x[begin], *const y = &now.y[begin], *const vx = &now.vx[begin],
                             *const vy = &now.vy[begin], *const x_before = &before.x[begin],
@@ -178,7 +179,7 @@ public:
         levels_.resize(n_levels, Level(scheme_.points()));
         for (Level& level : levels_)
             for (FollowedStates& states : level) keep_states(kept, states);
-        if (kept.is_restored() && kept.is_at_end()) return; // written by earlier versions
+        if (kept.is_restored() && kept.is_at_end()) return; // data of an earlier version
         waiting_.keep(kept);
     }
 
@@ -191,7 +192,7 @@ public:
     }
 
     /// Tests the last lag of each level and reports the one whose F_s depends most on the waiting
-    /// time. Lags above 1/32 of the run have too few independent origins.
+    /// time. Lags above 1/32 of the run are not tested: they have too few independent origins.
     std::string doubt() const override {
         WaitingTimes::Comparison most;
         std::uint64_t length = 0;
@@ -215,7 +216,7 @@ public:
 private:
     using Level = std::vector<FollowedStates>;
     static constexpr std::uint64_t lags_per_run = 32;
-    static constexpr double most_deviations = 4; ///< standard errors; by chance in 1 of 300 runs
+    static constexpr double most_deviations = 4; ///< standard errors; 1 false warning in 300 runs
 
     void add_waiting_times(std::vector<MeasuredTable>& all) const {
         const auto add = [&](std::string name, std::size_t kind) {
@@ -226,7 +227,7 @@ private:
             add(fmt::format("correlations_waiting_{}", kind + 1), kind);
     }
 
-    /// The number of values of a lag: moments and squared overlap, of each species and all discs.
+    /// Number of values for a lag: moments and the squared overlap, for each species and all discs.
     std::size_t n_values() const { return (n_moments + 1) * (ends_.size() + 1); }
 
     void keep_states(KeptNumbers& kept, FollowedStates& states) {
@@ -246,7 +247,7 @@ private:
     }
 
     /// Adds this rank's discs to `sums`, which has a sum for each species, moment and run of ids.
-    /// Terms of one sum are added in the order of ids on one rank, so that any numbers of ranks and
+    /// The terms of a sum are added on one rank in order of id, so that any numbers of ranks and
     /// threads give the same bits.
     void compare(const FollowedStates& now, const FollowedStates& before,
                  std::span<double> sums) const {
@@ -263,9 +264,10 @@ private:
         }
     }
 
-    /// Combines the sums of all ranks, and adds a sample to each of `lags`. **Collective.**
+    /// Computes means from the sums of all ranks, and adds them as a sample to each of `lags`.
+    /// `sums` has the sums of one lag after another. **Collective.**
     void record_means(const std::vector<std::size_t>& lags, std::vector<double>& sums) {
-        // Only the rank that owns a sum has its value; all other ranks have 0
+        // Each sum is computed on one rank and is 0 on all others, so adding the words is exact.
         std::vector<std::uint64_t> words(sums.size());
         for (std::size_t k = 0; k < sums.size(); ++k)
             words[k] = std::bit_cast<std::uint64_t>(sums[k]);
@@ -342,9 +344,9 @@ private:
     FollowedDiscs discs_;
     MultipleTau scheme_;
     double wavenumber_, overlap_;
-    std::vector<DiscId> ends_; ///< the id after the last one of each species
+    std::vector<DiscId> ends_; ///< for each species, the id after its last one
     std::uint64_t n_samples_ = 0;
-    std::vector<Level> levels_;      ///< states of this rank's range of ids, by slot
+    std::vector<Level> levels_;      ///< earlier states of this rank's range of ids, by slot
     std::vector<VectorBlocks> lags_; ///< blocks of means over discs, the same on all ranks
     WaitingTimes waiting_;           ///< means by waiting time, the same on all ranks
 };

@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    /// If walls move, positions are fractions of the box at each sample.
+    /// If walls move, positions are fractions of the box's width or height at each sample.
     MeasuredTable along(const std::vector<std::uint64_t>& counts, const char* axis, double length,
                         double origin) const {
         bool is_moving = false;

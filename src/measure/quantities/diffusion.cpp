@@ -21,8 +21,8 @@ std::int64_t window_of(const MeasurementOutput& output) {
     return static_cast<std::int64_t>(correlation_steps.of(output));
 }
 
-/// Warns that without a complete window there is no coefficient of diffusion. It is not an error,
-/// because a restart may complete a window.
+/// Warns if the run is too short for a window, so that it has no coefficient of diffusion. This is
+/// not an error, because a restart may complete a window.
 void warn_of_short_run(SceneParameters& scene) {
     const MeasurementOutput& output = *scene.measurements;
     const std::int64_t window = window_of(output), steps = scene.steps - output.from_step;
@@ -57,7 +57,8 @@ void check_window(const SceneDraft& draft) {
                              key, every, 2 * every, window));
 }
 
-/// Successive windows. Each has three means for each time 0, every_steps ... correlation_steps.
+/// Successive windows. Each has three means for each of the times 0, every_steps, and so on up to
+/// correlation_steps, counted from the start of the window.
 class Windows {
 public:
     Windows(const std::vector<double>& numbers, std::size_t n_times, std::int64_t every_steps)
@@ -68,7 +69,8 @@ public:
     double steps(std::size_t time) const {
         return static_cast<double>(static_cast<std::int64_t>(time) * every_steps_);
     }
-    /// The value of `number` at the time with this index, for each window that has reached it.
+    /// Calls `number` with the three means at the time with index `time`, for each window that has
+    /// reached this time, and returns all values.
     template <class Number> std::vector<double> each(std::size_t time, const Number& number) const {
         std::vector<double> values;
         for (std::size_t k = time; 3 * k < numbers_.size(); k += n_times_)
@@ -77,7 +79,7 @@ public:
     }
 
 private:
-    const std::vector<double>& numbers_; ///< means of dx^2, dy^2 and v(0) v(t) for each time t
+    const std::vector<double>& numbers_; ///< means of dx^2, dy^2 and v(0) . v(t) for each time t
     std::size_t n_times_;
     std::int64_t every_steps_;
 };
@@ -108,7 +110,8 @@ MeasuredTable velocity_autocorrelation(const Windows& windows) {
     return table;
 }
 
-/// D, also along x and y alone, from mean square displacements in the second half of each window.
+/// D, also along x and y alone, from the growth of mean square displacements in the second half of
+/// each window.
 MeasuredTable diffusion(const Windows& windows) {
     const std::size_t last = windows.n_times() - 1, middle = last / 2;
     MeasuredTable table{"diffusion",
@@ -179,7 +182,7 @@ private:
     Flights flights_;
     std::size_t n_times_;
     /// For each time of each window: mean squares of displacements along x and y, and the mean
-    /// product of velocities
+    /// scalar product of first and present velocities
     std::vector<double> numbers_;
 };
 

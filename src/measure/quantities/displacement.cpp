@@ -41,7 +41,7 @@ public:
 
 private:
     Flights flights_;
-    std::vector<double> squares_; ///< mean square displacement at each sample, along x, then y
+    std::vector<double> squares_; ///< for each sample: mean square displacement along x and y
 };
 
 } // namespace

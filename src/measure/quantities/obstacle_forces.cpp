@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // "obstacle_forces": the force and the torque of discs on each obstacle and on the wall of a round
-// box, collision by collision. Column `push` divided by the wall's length is its pressure.
+// box, summed over all collisions. Column `push` over the wall's length is the pressure on it.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    /// Number `part` of force_words for obstacle `row`, as a mean per step over an interval.
+    /// The quantity force_words[part] for obstacle `row`: its mean per step over an interval.
     double rate_of(std::size_t interval, std::size_t row, std::size_t part) const {
         return given_[(interval * rows_.size() + row) * n_force_parts + part] /
                static_cast<double>(run_.output.every_steps);
@@ -138,8 +138,8 @@ private:
     }
 
     void clear() {
-        // These bounds exceed the sums of any run. The resolution is 2^-62 of a typical impulse, of
-        // this impulse times the box length (torque), or times the typical speed (power).
+        // These bounds exceed the sums of any run. The resolution is 2^-62 times a typical impulse;
+        // for torque also times the box length, and for power also times the typical speed.
         const double impulse = speed_scale_ * 0x1p62;
         const std::array<double, n_force_parts> bounds{
             impulse, impulse, impulse * run_.scene.box.longest(), impulse, impulse * speed_scale_};
@@ -148,7 +148,7 @@ private:
             for (const double bound : bounds) since_last_.emplace_back(bound);
     }
 
-    /// Text that relates the numbers of obstacles to the rows of the scene's lists.
+    /// Text that states with which obstacle number each kind of fixed body begins.
     std::string obstacles_text() const {
         std::string text;
         for (std::size_t k = 0; k < rows_.size(); ++k) {
@@ -160,9 +160,9 @@ private:
     }
 
     std::vector<BodyRow> rows_;
-    double speed_scale_ = 0;           ///< typical speed, from which units of sums follow
-    std::vector<ExactSum> since_last_; ///< sums of each obstacle in this interval, on this rank
-    std::vector<double> given_;        ///< sums over all ranks, for each interval
+    double speed_scale_ = 0;           ///< typical speed, which defines the units of sums
+    std::vector<ExactSum> since_last_; ///< this rank's sums for each obstacle in this interval
+    std::vector<double> given_;        ///< sums over all ranks, by interval and obstacle
 };
 
 bool measures_forces(const SceneParameters& s) { return measures(s, "obstacle_forces"); }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // "partial_structure_factor": S_ab(k) of each pair of species, for wave vectors of a periodic box.
 //
-// S_ab is the mean of Re(rho_a rho_b*) / N with rho_a the sum of exp(i k r) over the discs of
-// species a, and N the number of all discs. So S is the sum of S_ab over all a and b. At large k
-// S_aa is the share of species a, and S_ab of two different species is 0.
+// S_ab is the mean of Re(rho_a rho_b*) / N, where rho_a is the sum of exp(i k r) over the discs of
+// species a, and N is the number of all discs. So S is the sum of S_ab over all a and b. At large k
+// S_aa tends to the fraction of discs in species a, and S_ab of different species tends to 0.
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_species = 8;
 
-/// Sums and blocks are ordered by kind of pair (pair_distances.hpp) and bin.
+/// Elements of `sums_` and `blocks_` are ordered by kind of pair (pair_distances.hpp), then by bin.
 class PartialStructureFactor : public WaveMeasurement {
 public:
     explicit PartialStructureFactor(MeasuredRun& run)

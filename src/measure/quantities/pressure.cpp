@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "pressure": the pressure tensor and the compressibility, from all collisions of pairs.
+// "pressure": the pressure tensor and the compressibility factor, from all collisions of pairs.
 #include <numeric>
 
 #include "measure/measurement.hpp"
@@ -55,8 +55,8 @@ private:
         return table;
     }
 
-    /// Means of the history's columns from `xx` on; the compressibility is computed from the mean
-    /// pressure.
+    /// Means of the history's columns from `xx` on. The compressibility factor is the mean pressure
+    /// divided by the mean of N kT / A.
     MeasuredTable means_of(const MeasuredTable& history) const {
         MeasuredTable table{
             "pressure",

@@ -2,9 +2,9 @@
 // "profiles": density, velocity, temperature relative to the local mean, the pressure tensor and
 // the flow of heat, on a grid of cells, averaged over successive blocks of time.
 //
-// Kinetic parts are sampled. The other parts use every collision: impulse times distance is divided
-// among the cells on the line between both centres, by length, so that the force across any grid
-// line is right. Cost: a pass over discs and cells a sample, some hundred instructions a collision.
+// Kinetic parts are sampled. The other parts sum over all collisions: each cell gets a share of
+// impulse times distance, by the length of the line of centres in it, so that forces across grid
+// lines are right. Cost: a pass over discs and cells a sample, some 100 instructions a collision.
 #include <algorithm>
 #include <array>
 
@@ -50,7 +50,7 @@ void check_grid(const SceneDraft& draft) {
                         n_blocks, n_cells, profile_samples.key_name()));
 }
 
-/// Suggests settings with which a run of `steps` steps from its first sample has a whole block.
+/// Suggests settings with which `steps` steps after the first sample complete a block.
 std::string remedy_for_short_run(const MeasurementOutput& output, std::int64_t steps) {
     const std::string samples = profile_samples.key_name();
     const auto intervals = static_cast<std::int64_t>(profile_samples.of(output)) - 1;
@@ -62,7 +62,7 @@ std::string remedy_for_short_run(const MeasurementOutput& output, std::int64_t s
     return fmt::format("output.measurements.every_steps = {} or less", steps / intervals);
 }
 
-/// Warns that no block is complete. This is no error, because a restart may complete one.
+/// Warns if the run completes no block. This is not an error, because a restart may complete one.
 void warn_without_blocks(const SceneDraft& draft) {
     const MeasurementOutput& output = *draft.scene.measurements;
     const std::int64_t steps = draft.scene.steps - output.from_step;
@@ -75,7 +75,7 @@ void warn_without_blocks(const SceneDraft& draft) {
                     needed, output.from_step, steps, remedy_for_short_run(output, steps)));
 }
 
-/// A block's last step, the number of steps whose collisions count, and the box's mean edges.
+/// A block's last step, the number of steps with its collisions, and the box's mean edges.
 struct BlockHead {
     double to_step = 0, steps = 0, x_low = 0, x_high = 0, y_low = 0, y_high = 0;
 };
@@ -171,7 +171,7 @@ private:
         return {&head.to_step, &head.steps, &head.x_low, &head.x_high, &head.y_low, &head.y_high};
     }
     std::size_t n_cells() const { return n_x_ * n_y_; }
-    /// Number of fields of a block: cells, cells of each separate species, and the whole box.
+    /// Number of fields in a block: cells, cells of each species with its own table, and the box.
     std::size_t n_fields() const { return n_cells() * (n_kinds_ > 1 ? n_kinds_ + 1 : 1) + 1; }
 
     std::size_t kind_of(DiscId id) const {
@@ -184,7 +184,7 @@ private:
         return {n, std::max(speed_, 0x1p-200), run_.scene.radius};
     }
 
-    /// Starts with empty sums. **Collective.**
+    /// Empties the sums and adds all later collisions to them. **Collective.**
     void follow() {
         sums_ = sample_ = no_sums(n_kinds_ * n_cells());
         means_.resize(n_fields() * n_sample_moments);
@@ -205,7 +205,7 @@ private:
     }
 
     /// The terms of a collision for the stress and the flow of energy. The energy transferred from
-    /// p to q is the mean of the energy that q gains and p loses.
+    /// p to q is taken as the mean of the energy that q gains and the energy that p loses.
     ContactTerms terms_of(const PairEvent& event) const {
         const Pair impulse = {event.ix, event.iy};
         Pair velocity = Pair{event.p_vx, event.p_vy} + Pair{event.q_vx, event.q_vy};
@@ -215,7 +215,7 @@ private:
         return sums_.terms_of(impulse, Pair{event.dx, event.dy}, velocity);
     }
 
-    /// Adds a collision; mostly the whole line between the centres of its discs is in one cell.
+    /// Adds a collision. Usually the whole line between the centres of both discs is in one cell.
     void add(const PairEvent& event, const PlacedGrid& grid) {
         const Pair from = Pair{event.x, event.y} * grid.per_length + grid.origin,
                    length = Pair{event.dx, event.dy} * grid.per_length, to = from + length;
@@ -230,7 +230,7 @@ private:
             add_parts(event, FieldSums::units_of(terms), from, length);
     }
 
-    /// Divides a collision's terms among the cells on its line and among both discs' species.
+    /// Divides a collision's terms among the cells on its line, and equally between both species.
     [[gnu::noinline]] void add_parts(const PairEvent& event, const ContactUnits& whole, Pair from,
                                      Pair length) {
         ContactUnits rest = whole;
@@ -259,8 +259,8 @@ private:
                               });
     }
 
-    /// Calls `act` with the sums of each field, in the order of blocks_: all discs in each cell,
-    /// each species if they are separate, and the whole box.
+    /// Calls `act` with the sums and the cell of each field, in the order of `blocks_`: each cell
+    /// with all discs, each cell with each species if these are separate, and the whole box.
     template <class Act> void for_each_field(const FieldSums& sums, const Act& act) const {
         const auto visit = [&act](const FieldSums& of) {
             for (std::size_t cell = 0; cell < of.size(); ++cell) act(of, cell);
@@ -270,7 +270,7 @@ private:
         visit(sums.total());
     }
 
-    /// Adds this rank's discs to the sums, and all ranks' discs to the means. **Collective.**
+    /// Adds this rank's discs to `sums_`, and the sample of all ranks to `means_`. **Collective.**
     void take_sample() {
         sums_.add_discs(sample_);
         sample_.join_discs(run_.ranks);
@@ -309,19 +309,19 @@ private:
     std::uint64_t per_block_;
     std::size_t n_kinds_; ///< number of kinds of discs: 1 unless species have separate tables
     SpeciesTable species_;
-    std::vector<DiscId> ends_; ///< the id after the last one of each species
+    std::vector<DiscId> ends_; ///< for each species, the id after its last one
     bool are_sides_moving_ = false, have_masses_ = false;
     double speed_ = 0;
     std::uint64_t n_samples_ = 0; ///< this and the next four members belong to the unfinished block
     BlockHead head_;              ///< head of the unfinished block; its edges are sums over samples
-    FieldSums sample_;            ///< the discs of the present sample, one kind after another
-    FieldSums sums_;              ///< sums of this rank over the block, one kind after another
+    FieldSums sample_;            ///< sums over the present sample, one kind after another
+    FieldSums sums_;              ///< this rank's sums over the block, one kind after another
     std::vector<double> means_;   ///< sample moments of each field
     std::vector<double> heads_;   ///< heads of finished blocks
     std::vector<double> blocks_;  ///< count and moments of each field in finished blocks
 };
 
-/// `n` fields of each block, from field `first` on. The last field is the whole box.
+/// The table of `n` fields from `first` on, for each block. The last field is the whole box.
 MeasuredTable Profiles::table_of(std::string name, std::size_t first, std::size_t n) const {
     const bool is_grid = n == n_cells() && first + n < n_fields();
     const std::string where = is_grid ? fmt::format("on a grid of {} by {} cells; x, y: their "

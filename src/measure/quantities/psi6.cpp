@@ -13,9 +13,9 @@ namespace carrom {
 
 namespace {
 
-constexpr std::size_t per_sample = 7; ///< numbers of each sample in `psi6_`
+constexpr std::size_t per_sample = 7; ///< number of values for each sample in `psi6_`
 
-/// Means of the history's columns, except the step and the real and imaginary part.
+/// Means of the history's columns, except the step and the real and imaginary parts.
 MeasuredTable means_of(const MeasuredTable& history) {
     MeasuredTable table{"psi6",
                         {"means of the history with one standard error (from joined samples; nan "
@@ -84,7 +84,7 @@ public:
 
 private:
     static double g6_of(double pairs, double products) { return pairs > 0 ? products / pairs : 0; }
-    /// The modulus of the mean of psi6 over all discs.
+    /// The modulus of the mean of psi6 over all discs at a sample.
     double psi6_at(std::size_t sample) const {
         const double* const now = psi6_.data() + per_sample * sample;
         return std::sqrt(now[0] * now[0] + now[1] * now[1]) / now[per_sample - 1];
@@ -154,8 +154,8 @@ private:
     }
 
     double largest_distance_;
-    /// For each sample: sums of real part, imaginary part and modulus, numbers of discs with 5, 6
-    /// and 7 neighbours, and the number of discs
+    /// For each sample: the sums over discs of the real part, the imaginary part and the modulus,
+    /// the numbers of discs with 5, 6 and 7 neighbours, and the number of all discs
     std::vector<double> psi6_;
     std::vector<std::uint64_t> neighbours_, moduli_, pairs_; ///< counts as in HexaticSums
     std::vector<double> products_;                           ///< sums as in HexaticSums

@@ -101,7 +101,7 @@ public:
     }
 
 private:
-    /// The share of pairs of independent points in each bin; recomputed only if the box changes.
+    /// The share of pairs of independent points in each bin. It is recomputed if the box changes.
     const std::vector<double>& ideal_shares(const Extent& box, std::size_t n, double width) {
         const Box size = box.size();
         if (shares_.size() == n && size == box_of_shares_) return shares_;
@@ -136,12 +136,12 @@ private:
         return share(outer) - share(inner);
     }
 
-    /// The number of curves: one for each kind of pairs and, if several, one for all pairs.
+    /// Number of curves: one for each kind of pairs and, if there are several, one for all pairs.
     static std::size_t n_curves(const SceneParameters& scene) {
         const std::size_t n_kinds = n_pair_kinds(species_apart(scene).size());
         return n_kinds > 1 ? n_kinds + 1 : 1;
     }
-    /// The numbers of each kind, preceded by their sums over all kinds if there are several.
+    /// The bins of each kind, preceded by their sums over all kinds if there are several kinds.
     std::vector<double> with_all(const std::vector<double>& of_kinds) const {
         const std::size_t n = n_bins_of(run_);
         if (of_kinds.size() == n) return of_kinds;
@@ -167,7 +167,7 @@ private:
     Box box_of_shares_;
     /// Counts of pairs: all bins of one kind of pairs (pair_distances.hpp), then of the next kind
     std::vector<std::uint64_t> pairs_;
-    std::vector<double> ideal_pairs_; ///< expected pairs, if discs were independent points
+    std::vector<double> ideal_pairs_; ///< expected counts if discs were independent points
     VectorBlocks blocks_;             ///< samples of g, all curves one after the other
 };
 

@@ -11,7 +11,7 @@ namespace carrom {
 
 namespace {
 
-/// Sums are for each wave vector, blocks for each bin.
+/// `sums_` has an element for each wave vector, and `blocks_` for each bin of wavenumbers.
 class StructureFactor : public WaveMeasurement {
 public:
     explicit StructureFactor(MeasuredRun& run) : WaveMeasurement(run) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "thermo": energy, temperature, pressure and rate of collisions over time, a row for each sample.
-// Its file grows as the run goes on.
+// "thermo": energy, temperature, pressure and rate of collisions over time, with a row for each
+// sample. Rows are appended to its file during the run.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -97,10 +97,10 @@ private:
     }
 
     const Measurements& others_;
-    /// Whether temperatures and energies are means over time
+    /// Whether temperatures and kinetic energies are means over the interval before each sample
     const bool are_means_ = does_energy_jump(run_.scene.effects);
-    Energies before_;          ///< values at the present step before effects act
-    std::vector<double> rows_; ///< energy, kT, discs and collisions of pairs at each sample
+    Energies before_;          ///< values at the present step, before effects acted
+    std::vector<double> rows_; ///< per sample: energy, kT, discs, pair collisions so far
     std::optional<PressureSampler> sampler_;
 };
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // "transport": shear viscosity, bulk viscosity and thermal conductivity of a gas in a periodic box.
 //
-// The coefficients follow from the spread of Helfand moments, as the coefficient of diffusion
-// follows from displacements (Viscardi and Gaspard, Phys. Rev. E 68, 041204 (2003)). A moment's
-// change is the time integral of stress, or of the heat current. Both are exact sums over
-// collisions, not over samples: the integral of f over a flight is a sum of time times the change
-// of f at collisions. So the derivative of the spread is Green and Kubo's integral without an error
-// of quadrature. Lags are chosen by multiple_tau.hpp. Price: a pass over the discs at each sample,
-// and some hundred instructions for each collision; memory for a few hundred numbers.
+// The coefficients follow from the variance of the changes of Helfand moments, as the coefficient
+// of diffusion follows from displacements (Viscardi and Gaspard, Phys. Rev. E 68, 041204 (2003)). A
+// moment's change is the time integral of stress or of the heat current. Both integrals are exact
+// sums over collisions, not sums over samples, because velocities are constant between collisions.
+// So the derivative of the variance is Green and Kubo's integral without an error of quadrature.
+// Lags are chosen by multiple_tau.hpp. Cost: one pass over the discs at each sample, and some
+// hundred instructions for each collision. Memory: a few hundred numbers.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -27,7 +27,8 @@ namespace carrom {
 
 namespace {
 
-/// The components of a moment: two of shear stress, half the trace of stress, the heat current.
+/// The components of a moment: time integrals of two components of shear stress, of half the trace
+/// of stress, and of the heat current along x and y.
 enum Component : std::uint8_t { shear_xy, shear_normal, trace, heat_x, heat_y, n_components };
 
 /// Henderson's approximation of Z = P A / (N kT) for hard discs.
@@ -60,17 +61,18 @@ public:
     void take(std::span<const PairEvent> events) override {
         for (const PairEvent& event : events) {
             const double time = event.steps_since(last_step_, run_.scene.micro_steps);
-            // s: sum of both velocities relative to the drift, which does not change; r: their
-            // difference after the collision. The discs are equal and elastic, so the impulse i on
-            // p gives p the energy i s / 2.
+            // s: sum of both velocities relative to the drift, which the collision conserves; r:
+            // difference of both velocities after the collision. The discs are equal and elastic,
+            // so the impulse i on p increases the energy of p by i . s / 2.
             const double sx = event.p_vx + event.q_vx - 2 * drift_[0],
                          sy = event.p_vy + event.q_vy - 2 * drift_[1], rx = event.p_vx - event.q_vx,
                          ry = event.p_vy - event.q_vy;
             const double gained = (event.ix * sx + event.iy * sy) / 2,
                          // Energy of p minus energy of q before the collision
                 difference = (rx * sx + ry * sy) / 2 - 2 * gained;
-            // First term: the energy that p gives q times their separation. The second corrects for
-            // the time before the collision: `sample` adds the last current for the whole interval.
+            // First term: the energy that p gives to q times their separation. The second term
+            // corrects for the current before the collision, because `sample` multiplies the
+            // current at the end of the interval by the length of the whole interval.
             const auto sum = [&](double r, double i, double d) {
                 return -gained * d - time * (gained * r + difference * i);
             };
@@ -100,7 +102,7 @@ public:
         change[shear_xy] = stress.xy;
         change[shear_normal] = (stress.xx - stress.yy) / 2;
         change[trace] = (stress.xx + stress.yy) / 2;
-        // The estimated mean trace is subtracted, because it would dominate the fluctuations
+        // The estimated mean is subtracted, because it is much larger than the fluctuations.
         change[trace] -= usual_trace_;
         temperature_ += pressure_->pressures()[3];
         pressure_->forget_pressures();
@@ -143,10 +145,11 @@ public:
 private:
     using Moments = std::array<double, n_components>;
     using Level = std::vector<Moments>;
-    /// Values of a lag: mean shear^2, trace^2, mean heat^2 and trace, for the changes over the lag.
+    /// Values of a lag, from the changes over it: shear^2 (mean of both components), trace^2,
+    /// heat^2 (mean of both components) and trace.
     static constexpr std::size_t n_values = 4;
 
-    /// Kinetic energy for a mass of 1, relative to the centre of mass.
+    /// Kinetic energy of a disc of mass 1, relative to the centre of mass.
     double energy(double vx, double vy) const {
         const double x = vx - drift_[0], y = vy - drift_[1];
         return (x * x + y * y) / 2;
@@ -160,7 +163,7 @@ private:
         run_.system.engine().followers_of_pairs().add(*this);
     }
 
-    /// Compares the moments of a sample with earlier ones, and stores them.
+    /// Adds to each lag the change of the moments since the earlier sample, then stores `moments`.
     void note(const Moments& moments) {
         moments_ = moments;
         for (std::size_t level = levels_.size(); level < scheme_.n_levels(n_samples_); ++level) {
@@ -187,20 +190,21 @@ private:
 
     MultipleTau scheme_;
     std::optional<PressureSampler> pressure_;
-    double speed_ = 0;              ///< typical speed, from which units of sums follow
+    double speed_ = 0;              ///< typical speed, which defines the units of sums
     std::array<double, 2> drift_{}; ///< velocity of the centre of mass, per step
     std::array<ExactSum, 2> heat_;  ///< time integral of the heat current since the last sample
     std::int64_t last_step_ = 0;    ///< step of the last sample
     std::uint64_t n_samples_ = 0;   ///< including the first one
-    double temperature_ = 0;        ///< sum of the mean kT of each interval
-    double usual_trace_ = 0;        ///< estimated change of the trace in an interval, subtracted
+    double temperature_ = 0;        ///< sum over intervals of the mean kT of each
+    double usual_trace_ = 0;        ///< estimated mean change of the trace in an interval
     Moments moments_{};             ///< moments of the last sample; 0 at the first one
     std::vector<Level> levels_;
     std::vector<VectorBlocks> lags_;
 };
 
-/// A coefficient is the spread divided by `scale` and by twice the lag. Its slope is the same
-/// ratio for the growth of spread and lag since the next shorter lag: Green and Kubo's integral.
+/// A coefficient is the variance `spread` divided by `scale` and by twice the lag. Its slope is the
+/// increase of `spread` since the previous lag, divided by `scale` and by twice the increase of the
+/// lag: Green and Kubo's integral.
 std::vector<MeasuredTable> Transport::tables() const {
     MeasuredTable table{
         "transport",

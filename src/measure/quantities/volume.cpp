@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "volume": the packing and the volume of discs at constant pressure, and how they fluctuate.
+// "volume": the packing fraction and the box's area per disc at constant pressure, and their
+// fluctuations.
 #include <cmath>
 #include <numbers>
 #include <numeric>

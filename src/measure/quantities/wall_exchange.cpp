@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // "wall_exchange": the energy, and the momentum along the side, that each side of the box gives to
-// the discs, collision by collision. Between walls of two temperatures the energy is the flow of
-// heat. Between walls that slide the momentum is the shear stress.
+// the discs, summed over all collisions and divided by length and time. Between walls with
+// different temperatures the energy is the flow of heat. Between sliding walls the momentum is the
+// shear stress.
 #include <array>
 #include <string>
 
@@ -54,7 +55,8 @@ public:
 
 private:
     void clear() override {
-        // No sum exceeds these bounds; resolution: 2^-62 speed_scale_^2, or 2^-62 speed_scale_
+        // No sum exceeds these bounds. The resolution is 2^-62 speed_scale_^2 for the energy and
+        // 2^-62 speed_scale_ for the momentum.
         since_last_ = {WallSums(speed_scale_ * speed_scale_ * 0x1p62),
                        WallSums(speed_scale_ * 0x1p62)};
     }
@@ -90,7 +92,7 @@ private:
         return table;
     }
 
-    std::array<WallSums, 2> since_last_; ///< heat and shear on this rank since the last sample
+    std::array<WallSums, 2> since_last_; ///< this rank's heat and shear since the last sample
 };
 
 bool measures_exchange(const SceneParameters& s) { return measures(s, "wall_exchange"); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "wall_pressure": the momentum that discs give to each side of the box, collision by collision.
+// "wall_pressure": the momentum that discs give to each side of the box, summed over all
+// collisions and divided by length and time.
 #include "measure/wall_sums.hpp"
 
 namespace carrom {
@@ -29,7 +30,7 @@ public:
 
     void keep(KeptNumbers& kept) override {
         kept(speed_scale_), kept(collisions_), kept(given_);
-        std::vector<std::uint64_t> pending; ///< sums of all ranks since the last sample
+        std::vector<std::uint64_t> pending; ///< sums over all ranks since the last sample
         if (!kept.is_restored()) {
             std::array<std::uint64_t, 4> counts = counts_;
             run_.ranks.sum(std::span<std::uint64_t>(counts));
@@ -90,7 +91,7 @@ private:
     }
 
     std::array<std::uint64_t, 4> collisions_{};
-    WallSums since_last_; ///< sums of this rank since the last sample
+    WallSums since_last_; ///< this rank's sums since the last sample
     std::array<std::uint64_t, 4> counts_{};
 };
 

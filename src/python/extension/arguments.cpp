@@ -8,7 +8,7 @@ namespace carrom::python {
 
 namespace {
 
-/// the session of all MPI ranks, if this process has made it; released by end_session
+/// The session of all MPI ranks, if this process has made one; end_session releases it.
 std::shared_ptr<Session> of_process;
 
 Options options_of(int threads, const std::shared_ptr<std::vector<std::string>>& lines) {

@@ -10,7 +10,7 @@ namespace {
 
 /// Python's function (lines, exit code) that makes the exception for an error of the library.
 nb::object& error_maker() {
-    static auto* maker = new nb::object; // never destroyed: Python ends before static objects do
+    static auto* maker = new nb::object; // never destroyed: Python ends before destructors run
     return *maker;
 }
 
@@ -36,7 +36,7 @@ template <class Call> auto without_lock(const Call& call) {
     return call();
 }
 
-/// The docstring of a property that is an array over this rank's discs.
+/// The docstring of a property that is an array for all discs, filled only for this rank's discs.
 std::string of_own_discs(const char* what) {
     return std::string(what) + "; 0 at ids of other ranks' discs.";
 }
@@ -47,7 +47,7 @@ std::vector<std::string> taken_lines(Core& core) {
     return lines;
 }
 
-/// Adds properties for numbers and arrays. Each access makes a new array.
+/// Adds properties for numbers and arrays. Each access to an array makes a new array.
 void add_properties(nb::class_<Core>& core) {
     core.def_prop_ro(
             "step", [](const Core& core) { return core.simulation.step(); },

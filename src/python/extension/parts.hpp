@@ -3,8 +3,8 @@
 // Python.
 //
 // This layer is thin on purpose. The functions that a user calls, with their checks and texts, are
-// in carrom/simulation.py. Only what needs C++ is here: calls without Python's lock, arrays without
-// a copy of rows, and errors with the library's problems line by line.
+// in carrom/simulation.py. Only what needs C++ is here: calls that release Python's lock, arrays
+// that are filled without a copy, and errors with the library's problems line by line.
 #pragma once
 
 #include <cstdint>

@@ -9,8 +9,8 @@ namespace carrom {
 
 class CsvTable {
 public:
-    /// Throws InputError if the file exists or its path is wrong, and CollectiveError (code 4)
-    /// if the disk or a missing right prevents writing. Writes nothing before the first line.
+    /// Throws InputError if the file exists or its path is wrong, and CollectiveError (code 4) if
+    /// the disk or missing permissions prevent writing. Writes nothing before the first line.
     CsvTable(std::string path, std::string header);
 
     /// Throws CollectiveError (code 4) if writing fails; the table then ends before this line.

@@ -14,7 +14,7 @@ namespace carrom {
 
 namespace {
 
-/// Whether a file has a name that other programs can remove; pipes have none.
+/// Whether an open file is a regular file that has not been removed.
 bool is_named_file(int file) {
     struct stat status{};
     return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink > 0;
@@ -50,8 +50,8 @@ void DataOutput::flush() {
         if (written >= 0) {
             next += written;
             left -= static_cast<std::size_t>(written);
-        } else if (errno == EAGAIN) { // if another process made the pipe non-blocking, waits until
-                                      // there is space
+        } else if (errno == EAGAIN) { // another process has made the pipe non-blocking, so wait
+                                      // until there is space
             pollfd room{file_, POLLOUT, 0};
             ::poll(&room, 1, -1);
         } else if (errno != EINTR) {
@@ -69,7 +69,8 @@ void DataOutput::close() {
 }
 
 WriteProblem write_problem_of_stream(const std::string& path) {
-    // A reader that already waits would take opening and closing a pipe for the end of the file.
+    // Pipes are not opened, because a waiting reader would take the closing for the end of the
+    // file.
     if (struct stat status{}; ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode))
         return ::access(path.c_str(), W_OK) == 0 ? WriteProblem{}
                                                  : write_problem("cannot be written", errno);

@@ -31,7 +31,7 @@ public:
     void flush();
 
     /// Closes the file. Nothing may be written after this. Some file systems report a full disk
-    /// only now. It is also a failure if the file was removed meanwhile.
+    /// only when a file is closed. It is also a failure if the file has been removed.
     void close();
 
     /// The text of the first failure, or empty. After a failure nothing more is written.
@@ -49,8 +49,8 @@ private:
     std::string failure_;
 };
 
-/// The problem that would keep a DataOutput from opening `path`, as far as a test can find it. Does
-/// not change the file.
+/// The problem that would keep a DataOutput from opening `path`, as far as it can be found without
+/// changing the file.
 WriteProblem write_problem_of_stream(const std::string& path);
 
 } // namespace carrom

@@ -11,7 +11,8 @@ namespace carrom {
 
 namespace {
 
-/// Whether paths lead to one file, also for missing files, links and other spellings.
+/// Whether two paths lead to the same file, even if it is missing, or if the paths differ by links
+/// or spelling.
 bool is_same_file(const std::string& a, const std::string& b) {
     std::error_code error;
     if (std::filesystem::equivalent(a, b, error)) return true;
@@ -29,7 +30,7 @@ bool is_special(const std::string& path) {
            !std::filesystem::is_directory(status);
 }
 
-/// Whether the file has other hard links, which text written in place would change, too.
+/// Whether the file has several hard links: text written in place would appear under all of them.
 bool has_other_names(const std::string& path) {
     std::error_code error;
     return std::filesystem::is_regular_file(path, error) &&
@@ -55,7 +56,8 @@ bool may_replace(Output output, FileContent content) {
     }
 }
 
-/// The problem of an output by itself, without regard to other outputs and to files that are read.
+/// Why this output is not allowed, or an empty text. Other outputs and input files are not
+/// compared.
 std::string reason_against(const Destination& target, const std::string& own_folder) {
     if (target.kind == Output::of_folder) return {};
     if (target.kind == Output::folder) {

@@ -2,9 +2,9 @@
 // Ends a run whose folder was moved, removed or replaced while the run wrote there.
 //
 // Files are opened by their paths, so the run would otherwise continue in any folder that has taken
-// the name, such as another run's, or an empty one where a disk is no longer mounted. The open lock
-// file shows whether its path still leads to it. Cost: two system calls and a reduction for each
-// stretch of steps, in runs with a folder.
+// the name, such as another run's, or an empty one where a disk is no longer mounted. So the guard
+// tests whether the path of the lock file still leads to the open lock file. Cost: two system calls
+// and a reduction for each stretch of steps, in runs with a folder.
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* folder_key = "output.folder";
 
-/// The problem that would keep a folder from being made. Does not make it.
+/// The problem that would prevent the folder from being created. Does not create it.
 WriteProblem write_problem_of_new_folder(const std::string& folder) {
     std::error_code ignored;
     std::filesystem::path place = std::filesystem::absolute(folder, ignored);
@@ -34,7 +34,7 @@ WriteProblem write_problem_of_new_folder(const std::string& folder) {
     return write_problem("cannot be made in " + place.string(), errno);
 }
 
-/// The problem in the folder because of which the run cannot write there.
+/// Why the run cannot use the contents of its folder; empty if it can.
 std::string problem_in_folder(const RunOptions& options, const SceneParameters& scene) {
     const std::string& folder = scene.folder;
     std::error_code ignored;
@@ -72,8 +72,8 @@ WriteLock locked(const std::string& folder, MadeFolders made, PlaceProblems& fou
     return lock;
 }
 
-/// Adds the problems of the run's outputs to `found`. If there are none, makes the folder and adds
-/// its lock to `locks`; if `locks` is null, makes and locks nothing.
+/// Adds the problems of the run's outputs to `found`. If there are none, creates the folder and
+/// adds its lock to `locks`. If `locks` is null, creates no folder and takes no lock.
 void check_places(PlaceProblems& found, const RunOptions& options, const SceneParameters& scene,
                   const std::vector<NamedFile>& sources, std::vector<Destination> destinations,
                   std::vector<WriteLock>* locks) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks before a run begins: its outputs can be written, are none of the files that it reads, and
-// belong to no other run; and no other run is writing there now.
+// Checks before a run begins that its outputs can be written, are not among the files that it
+// reads, and do not belong to another run, and that no other run is writing to its folder.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace carrom {
 
-/// Problems of paths to write to. `failures` are problems of the disk or of rights, where the path
+/// Problems of output paths. `failures` are problems of the disk or of permissions, where the path
 /// itself may be correct.
 struct PlaceProblems {
     std::vector<Problem> problems, failures;
@@ -28,17 +28,17 @@ struct PlaceProblems {
     void agree(const Communicator& ranks) const;
 };
 
-/// Throws InputError on every rank if the run cannot use its folder, or if it would write to
-/// `sources`, which are read, or twice to one path; `others` are its other outputs. Throws
-/// CollectiveError, code 4, if the paths are correct but the disk fails. Makes the folder. The
-/// locks of rank 0 must live as long as the run writes. **Collective.**
+/// Throws InputError on every rank if the run cannot use its folder, or if an output path is among
+/// `sources`, which are read, or occurs twice. `others` are the outputs outside of the folder.
+/// Throws CollectiveError, code 4, if the paths are correct but the disk fails. Creates the folder.
+/// The locks, which rank 0 gets, must live as long as the run writes. **Collective.**
 std::vector<WriteLock> claim_outputs(const RunOptions& options, const SceneParameters& scene,
                                      const std::vector<NamedFile>& sources,
                                      const std::vector<Destination>& others,
                                      const Communicator& ranks);
 
-/// The problems of the outputs of a run that cannot begin for other reasons, so that all problems
-/// are printed together. Makes and locks nothing.
+/// Checks the output paths of a run that is already known to fail, so that all problems are printed
+/// together. Creates no folder and takes no lock.
 std::vector<Problem> problems_of_outputs(const RunOptions& options, const SceneParameters& scene,
                                          const std::vector<NamedFile>& sources);
 

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The path without links, as far as it exists.
+/// The absolute path, with links resolved as far as it exists.
 fs::path canonical(const fs::path& path) {
     std::error_code error;
     const fs::path whole = fs::weakly_canonical(fs::absolute(path, error), error);
@@ -88,7 +88,7 @@ bool begins_as_table(std::string_view text) {
 } // namespace
 
 std::string owner_of_file(const std::string& path, const std::string& own_folder) {
-    // A report replaces a link, and text is written to its target. Both may belong to a run.
+    // A report replaces a link, but text is written to the link's target. Either may be a run's.
     const fs::path behind = canonical(path),
                    named = canonical(folder_of(path)) / fs::path(path).filename();
     const std::string owner = owner_of_spelling(behind, own_folder);

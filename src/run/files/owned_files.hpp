@@ -12,14 +12,14 @@
 namespace carrom {
 
 /// The owner of a path, as in "a file of the run in FOLDER"; empty if there is none. `own_folder`
-/// is the folder of the present run, which may not have begun; it may be empty.
+/// is the folder of the present run, which may not have begun yet; empty if it has none.
 std::string owner_of_file(const std::string& path, const std::string& own_folder);
 
-/// The owner of a folder, or of the folder around it, if only the owner may make files there: a run
-/// owns its folders for checkpoints, recordings and tables. Empty if there is none.
+/// The owner of a folder, or of the folder around it, if only the owner may create files there: a
+/// run owns its folders for checkpoints, recordings and tables. Empty if there is none.
 std::string owner_of_folder(const std::string& path);
 
-/// Whether the path is in a subfolder of a run in `folder`, whose files the run may remove.
+/// Whether the path is in a subfolder of the run in `folder`. The run may remove files there.
 bool is_in_subfolder_of_run(const std::string& path, const std::string& folder);
 
 enum class FileContent { nothing, hdf5, report, scene, table, other };

@@ -32,15 +32,15 @@ int sync_folder_of(const std::string& path) {
     const std::string folder = std::filesystem::path(path).parent_path().string();
     const int file = ::open(folder.empty() ? "." : folder.c_str(),
                             O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    // No error without the right to read the folder, because writing files needs no such right
+    // Missing permission to read the folder is no error, because files can still be written to it
     if (file < 0) return errno == EACCES ? 0 : errno;
     const int error = ::fsync(file) != 0 && errno != EINVAL ? errno : 0;
     ::close(file);
     return error;
 }
 
-/// A new file in the folder of `path`, removed unless it is renamed. Making it never replaces a
-/// file or follows a link. If `number` is negative, `errno` has the reason.
+/// A temporary file in the folder of `path`, which is removed unless it is renamed. Creating it
+/// never replaces a file or follows a link. If `number` is negative, `errno` has the reason.
 class FileBeside {
 public:
     explicit FileBeside(const std::string& path) {
@@ -84,7 +84,7 @@ WriteProblem write_problem_of_file(const std::string& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (std::filesystem::is_directory(status)) return {"is a directory; name a file"};
-    // Only plain files may be replaced, because a rename would turn a device or a pipe into one.
+    // Only plain files may be replaced, because a rename would replace a device by a plain file.
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         return {"is not a plain file"};
     const FileBeside file(path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a small file as a whole or not at all: under a temporary name, then renamed.
+// Writes a small file as a whole or not at all: it gets a temporary name, and is then renamed.
 //
 // Whether it can be written is tested before the run, because after a long run it is too late.
 #pragma once
@@ -11,8 +11,8 @@
 
 namespace carrom {
 
-/// The problem that would keep `write_whole_file` from writing to `path`, as far as a test can find
-/// it before the run. Leaves no file behind.
+/// The problem that would keep `write_whole_file` from writing to `path`, as far as it can be found
+/// before the run. Leaves no file behind.
 WriteProblem write_problem_of_file(const std::string& path);
 
 /// Replaces `path` by a file with this text. Returns the problem, or an empty text.

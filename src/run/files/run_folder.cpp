@@ -74,8 +74,8 @@ bool is_segment(const fs::path& path) {
            stem.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// Whether a run may have written a file, by its name and, for a table, by its contents: a
-/// CSV file's first line names the table.
+/// Whether a run may have written a file, judged by its name and, for a table, by its contents: the
+/// first line of a CSV file names the table.
 bool is_written_by_run(std::string_view folder, const fs::path& path) {
     std::error_code error;
     if (!fs::is_regular_file(fs::symlink_status(path, error))) return false;
@@ -102,12 +102,12 @@ std::string find_entry(const std::string& folder, std::error_code& error, const 
     return {};
 }
 
-/// The settings that the first lines of a scene's copy list: settings of `--set`, and paths of
+/// The settings in the first lines of a scene's copy: those of `--set`, and absolute paths of
 /// files, because the copy is in another folder.
 std::vector<std::string> overrides_for_copy(const SceneParameters& scene) {
     std::vector<std::string> overrides = scene.overrides;
     std::erase_if(overrides,
-                  // not listed, because the scene determines the frozen discs again
+                  // not listed, because they follow from the scene when the copy is read
                   [](const std::string& one) { return is_of_frozen(one); });
     if (!scene.discs_file.empty())
         overrides.push_back("discs.file=" + fs::absolute(discs_path(scene)).string());
@@ -235,7 +235,7 @@ std::string difference_from_run(const std::string& folder, const SceneParameters
         if (has_column(scene, DiscColumn::radius))
             text.columns = DiscColumns{scene.effects.species, {}, true};
         SceneParameters there = read_scene(text, overrides), here = scene;
-        there.discs_file = here.discs_file; // the path in the copy is relative to another folder
+        there.discs_file = here.discs_file; // not compared, because the copy has an absolute path
         for (SceneParameters* one : {&there, &here})
             if (one->accuracy) decide_on(*one, {scene.method, scene.micro_steps});
         if (there.awaits_frozen() && !here.frozen.empty())

@@ -59,7 +59,7 @@ void remove_run(const std::string& folder);
 /// Describes why `remove_run` cannot remove all files; empty if it can.
 std::string problem_of_removal(const std::string& folder);
 
-/// Makes the run's folders and writes the copy of its scene. Throws FileError.
+/// Creates the run's folders and writes the copy of its scene. Throws FileError.
 void prepare_folder(const SceneParameters& scene);
 
 } // namespace carrom

@@ -15,18 +15,19 @@ namespace carrom {
 namespace {
 
 constexpr double approach = 10; ///< mean number of collisions of a disc before the trials begin
-constexpr double certainty = 2; ///< standard errors that are added to a measured error
+constexpr double certainty = 2; ///< number of standard errors that are added to a measured error
 constexpr double most_collisions = 4e6; ///< largest result of collisions_needed
-/// The smallest error that 4e6 collisions can show; sqrt(4e6) is 2000
+/// The smallest error that 4e6 collisions can resolve, because sqrt(4e6) is 2000
 constexpr double least_accuracy = 4 * certainty / 2000;
-/// The least number of collisions of a disc in a trial, because errors in dense gases appear late
+/// The least mean number of collisions of a disc in a trial; errors in dense gases appear late
 constexpr double per_disc = 100;
-/// To be timed, trials need this many pair collisions, or both this many disc-steps and steps.
+/// A trial can be timed if it has this many pair collisions, or else these numbers of disc-steps
+/// and steps.
 constexpr double fewest_collisions = 2e4;
 constexpr double long_enough = 2e4;
 constexpr double long_enough_steps = 1e3;
 /// Seconds after which a setting may be dropped before its trial ends, and after which it may count
-/// as slow. The latter is longer, because starting takes time, too.
+/// as slow. The latter is longer, because the start of a trial takes time, too.
 constexpr double long_trial = 0.02, timed_enough = 0.2;
 /// Overlaps are not steady if they grow by more than this factor between stretches
 constexpr double steady = 1.2;
@@ -89,8 +90,8 @@ std::vector<Trial> run_event_driven(const Pilot& pilot) {
 
 /// The results of a setting's trial so far.
 struct Experience {
-    TrialError error;                          ///< error in its last stretch
-    double seconds = 0, reference_seconds = 0; ///< time of the trial and of the exact run so far
+    TrialError error;                          ///< error in the last stretch so far
+    double seconds = 0, reference_seconds = 0; ///< times of the trial and of the exact run so far
     /// Whether the trial ran to its end; false if it was stopped because of its error
     bool is_whole = false;
     bool grows = false; ///< whether overlaps keep growing, so that errors grow, too
@@ -173,9 +174,9 @@ TrialStart start_of_pilot(const SceneParameters& scene, const std::vector<InputD
 
 double TrialError::largest() const { return std::max(std::fabs(frequency), std::fabs(pressure)); }
 
-/// The statistical error follows from the number of collisions, because pressures fluctuate at most
-/// as much. A number n of collisions has an error of at most sqrt(n), because collisions of hard
-/// discs are more regular than independent events.
+/// The statistical error is estimated from the number n of collisions, because the relative error
+/// of a pressure is not larger. The error of n is at most sqrt(n), because collisions of hard discs
+/// are more regular than independent events.
 TrialError error_of(const Trial& trial, const Trial& exact) {
     const auto pairs = [](const Trial& t) {
         return static_cast<double>(std::max<std::uint64_t>(1, t.totals.pair_collisions));

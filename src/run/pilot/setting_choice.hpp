@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `time.accuracy = x` chooses the fastest setting whose collision rate and pressure are within a
-// share x of the exact ones.
+// `time.accuracy = x` chooses the fastest setting whose collision rate and pressure have relative
+// errors of at most x.
 //
 // A pilot brings the scene's discs to equilibrium and runs them by the event-driven method. Then it
 // tries the time-stepped method with K = 1, 2, 4, ... micro-steps, until a K is accurate enough, or
 // two in succession are as slow as the event-driven method. Cost mostly grows with K, so the first
-// accurate K is taken as the fastest. It has to be accurate after 100 collisions of a disc; in
-// dense gases errors may grow later. Single precision and the naive formula save almost no time
+// accurate K is taken as the fastest. It has to be accurate after 100 collisions per disc; in dense
+// gases errors may grow later. Single precision and the naive formula save almost no time
 // (docs/understanding/accuracy.md).
 #pragma once
 

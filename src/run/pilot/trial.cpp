@@ -18,7 +18,7 @@ constexpr std::int64_t unlimited_steps = std::int64_t{1} << 40;
 /// The pilot fails if discs have not collided often enough after this number of steps.
 constexpr std::int64_t longest_approach = 1 << 20;
 
-/// CPU seconds of all threads of this process, so other programs on the machine do not count.
+/// CPU seconds of all threads of this process, which other programs on the machine do not affect.
 double process_seconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

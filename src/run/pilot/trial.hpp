@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Short runs of a scene under other settings, from the same start. The accuracy study
-// and the choice of a setting by `time.accuracy` measure errors and costs with them.
+// Short runs of a scene with other settings, from the same start. The accuracy study and the choice
+// of a setting by `time.accuracy` measure errors and costs with them.
 #pragma once
 
 #include <cstdint>
@@ -30,15 +30,15 @@ struct RunSetting {
 /// The scene with this setting, and without `time.accuracy`.
 SceneParameters with_setting(SceneParameters scene, const RunSetting& setting);
 
-/// Discs in equilibrium, made by the event-driven method, from which trials start.
+/// Discs from which trials start, after the event-driven method has brought them to equilibrium.
 struct TrialStart {
     std::vector<InputDisc> discs; ///< discs of this rank
     StateHash hash;
     double frequency = 0; ///< collisions with other discs per disc and step
 };
 
-/// Runs `discs` by the event-driven method until a disc has had `collisions_per_disc` with others
-/// on average. Throws InputError if discs overlap or hardly collide. **Collective.**
+/// Runs `discs` by the event-driven method until each disc has collided `collisions_per_disc` times
+/// with others, on average. Throws InputError if discs overlap or hardly collide. **Collective.**
 TrialStart bring_to_equilibrium(const SceneParameters& scene, std::vector<InputDisc> discs,
                                 double collisions_per_disc, const Communicator& communicator,
                                 const Tuning& tuning);
@@ -48,7 +48,7 @@ struct Trial {
     std::int64_t steps = 0;
     Averages averages;
     Totals totals;                         ///< totals at the trial's end
-    double overlapping_pairs_per_disc = 0; ///< simultaneous overlaps of a disc, mean over samples
+    double overlapping_pairs_per_disc = 0; ///< overlaps of a disc at one time, mean over samples
     double deepest_overlap = 0;            ///< deepest overlap of all samples, in diameters
     double core_seconds = 0;               ///< CPU time of the steps, summed over ranks and threads
     double wall_seconds = 0;               ///< wall time of the steps on the slowest rank
@@ -61,7 +61,7 @@ std::vector<InputDisc> discs_now(const DiscSystem& system);
 
 struct TrialLength {
     std::int64_t steps = 1;
-    std::int64_t early_step = 0; ///< the step of the discs in Trial::early, or 0
+    std::int64_t early_step = 0; ///< the step of the discs in Trial::early; 0: none
     int n_samples = 16;          ///< number of samples of overlaps
 };
 

@@ -55,8 +55,8 @@ void go_on(const StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     if (start) loaded.start = std::move(*start);
 }
 
-/// Claims the outputs, and reads again if a checkpoint was written before the lock was taken.
-/// **Collective.**
+/// Claims the outputs. Reads the checkpoint again if a newer one was written before the lock was
+/// taken. **Collective.**
 void claim(StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     const RunOptions& options = plan.options;
     try {
@@ -80,7 +80,8 @@ void claim(StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     }
 }
 
-/// Makes the first discs unless the run continues, and warns of likely mistakes. **Collective.**
+/// Reads or generates the initial discs unless the run continues, and warns of likely mistakes.
+/// **Collective.**
 void make_discs(const StartPlan& plan, Loaded& loaded, const Communicator& ranks) {
     const RunOptions& options = plan.options;
     SceneParameters& scene = loaded.scene;

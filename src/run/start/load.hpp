@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Carries out the plan of how a run begins: reads the checkpoint or makes the first discs, and
-// claims the outputs. All errors of the input are found here or while planning.
+// Carries out the plan of how a run begins: reads the checkpoint, or reads or generates the initial
+// discs, and claims the outputs. All errors of the input are found here or while planning.
 #pragma once
 
 #include <vector>

@@ -55,7 +55,7 @@ std::string named_folder(const RunOptions& options, const Communicator& ranks) {
     return folder;
 }
 
-/// Checkpoints of a folder for steps before `end`, newest first, the same on every rank.
+/// The paths of a folder's checkpoints of steps before `end`, newest first, the same on every rank.
 /// **Collective.**
 std::vector<std::string> candidates_in(
     const std::string& folder, const Communicator& ranks,
@@ -102,7 +102,8 @@ std::string reasons(const InputError& error) {
     return text;
 }
 
-/// The newest undamaged checkpoint of this run in `paths`, sorted newest first. **Collective.**
+/// Reads the first of `paths`, sorted newest first, that is an undamaged checkpoint of this run.
+/// **Collective.**
 std::optional<Checkpoint> read_newest(const std::vector<std::string>& paths,
                                       const RunOptions& options, SceneParameters& scene,
                                       const Communicator& ranks) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Restarts from a checkpoint. The plan contains where to search for checkpoints, and which files
-// exist. It follows from options and the names of files alone. `read_restart` reads the newest of
+// Restarts from a checkpoint. The plan records where to search for checkpoints, and which ones
+// exist. It is made from options and the names of files alone. `read_restart` reads the newest of
 // these files that is undamaged and belongs to the scene's run.
 #pragma once
 
@@ -44,24 +44,25 @@ RestartPlan plan_restart(const RunOptions& options, const SceneParameters& scene
 bool has_other_checkpoints(RestartPlan& plan, const Communicator& ranks);
 
 /// Reads the plan's newest checkpoint that is undamaged and of the scene's run. Rank 0 reports why
-/// it skips others. Without an input `scene` becomes the checkpoint's, with the options' overrides.
-/// Returns nothing if the run starts at step 0. Throws on every rank (exit code 2) if a named file,
-/// or all checkpoints of a folder, are unusable, if a named folder has none, if there is no
-/// checkpoint and no input, or if the checkpoint is later than the run's last step. **Collective.**
+/// it skips others. Without an input, `scene` becomes the checkpoint's scene with the overrides of
+/// the options. Returns nothing if the run starts at step 0. Throws on every rank (exit code 2) if
+/// a named file, or all checkpoints of a folder, are unusable, if a named folder has none, if there
+/// is no checkpoint and no input, or if the checkpoint is later than the run's last step.
+/// **Collective.**
 std::optional<RunStart> read_restart(const RestartPlan& plan, const RunOptions& options,
                                      SceneParameters& scene, const Communicator& ranks);
 
 /// The start of a run that continues from the checkpoint.
 RunStart start_of(Checkpoint checkpoint);
 
-/// Call it if no checkpoint was found and the folder is locked. Prints that the run starts at step
-/// 0. Throws on every rank (exit code 2) if that would replace recordings of later steps.
+/// Call it when the folder is locked and no checkpoint was found. Prints that the run starts at
+/// step 0. Throws on every rank (exit code 2) if that would replace recordings of later steps.
 /// **Collective.**
 void begin_anew(const RestartPlan& plan, const RunOptions& options, const SceneParameters& scene,
                 const Communicator& ranks);
 
-/// Undamaged checkpoints in a folder that belong to the scene's run and are earlier than `step`,
-/// oldest first. **Collective.**
+/// The paths of undamaged checkpoints in a folder that belong to the scene's run and are of steps
+/// before `step`, oldest first. **Collective.**
 std::vector<std::string> earlier_checkpoints(const std::string& folder,
                                              const SceneParameters& scene, std::int64_t step,
                                              const Communicator& ranks);

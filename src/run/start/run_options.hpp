@@ -38,7 +38,7 @@ struct RunOptions {
     Messages messages;
 };
 
-/// Whether the run continues from a checkpoint, if there is one.
+/// Whether an option requests that the run continue from a checkpoint.
 inline bool goes_on(const RunOptions& options) {
     return options.resume || !options.restart.empty();
 }

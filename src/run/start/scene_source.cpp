@@ -27,9 +27,8 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
-/// Returns the problems of the InputError that `read` throws, if it does. Rank 0 may find problems
-/// that other ranks do not have yet, so the exception must not leave this function before all ranks
-/// have agreed.
+/// Calls `read`, and returns the problems of the InputError that it throws, if any. Rank 0 may find
+/// problems that the other ranks do not, so no rank may throw before all ranks have agreed.
 template <class Read> Problems problems_of(const Read& read) {
     try {
         read();
@@ -75,8 +74,8 @@ struct FromFile {
     double radius = 0;   ///< radius of the largest disc in the file
 };
 
-/// An addition to the warning of departed discs if discs.packing gives the remaining discs other
-/// radii; empty if the radii are the same.
+/// Text to append to the warning of departed discs, if discs.packing makes the remaining discs
+/// larger than they are in the file; otherwise empty.
 std::string note_on_radius(const SceneParameters& scene, const FromFile& from) {
     if (!(scene.radius > from.radius * (1 + 1e-9))) return {};
     const std::string remedy = scene.sizes ? "discs.radius.mean"
@@ -87,7 +86,8 @@ std::string note_on_radius(const SceneParameters& scene, const FromFile& from) {
                        from.radius, remedy);
 }
 
-/// A folder instead of a file is an easy mistake, so the error names a likely file. **Collective.**
+/// Throws if the path is a folder. This is an easy mistake, so the error names a likely file.
+/// **Collective.**
 void refuse_folder(const SceneParameters& scene, const std::string& path,
                    const Communicator& ranks) {
     namespace fs = std::filesystem;
@@ -107,7 +107,7 @@ void refuse_folder(const SceneParameters& scene, const std::string& path,
 }
 
 /// Writes the discs of `discs.from` as lines of text into `stream`, as if they followed the scene's
-/// text: all discs on rank 0, their shares on the other ranks. **Collective.**
+/// text: all discs on rank 0, and on each other rank its share. **Collective.**
 FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<std::istream>& stream,
                                 Problems& of_root, const Communicator& ranks) {
     const std::string path = discs_path(scene);
@@ -130,7 +130,7 @@ FromFile follow_with_discs_from(const SceneParameters& scene, std::unique_ptr<st
     ranks.broadcast(file.columns);
     ranks.broadcast(file.departed);
     ranks.broadcast(file.radius);
-    // errors are ignored here, because rank 0 reads all lines and finds them
+    // errors are ignored here, because rank 0 reads all lines and finds them, too
     if (!ranks.is_root() && file.n_discs > 0)
         problems_of([&] {
             const Slab share = slab_of_rank(ranks.rank(), file.n_discs, ranks.size());
@@ -247,7 +247,7 @@ bool are_columns_wrong(const SceneSource& source) {
 Problems disc_line_problems_of(const SceneParameters& scene, std::istream* stream) {
     Problems problems;
     const bool is_known = takes_discs_of_file(scene) && scene.n_discs == 0;
-    if (is_known) return problems; // reported before, because counting the lines has failed
+    if (is_known) return problems; // already reported, because the lines could not be counted
     append(problems, problems_of([&] {
                if (!scene.reads_disc_lines()) return;
                if (takes_discs_of_file(scene)) {

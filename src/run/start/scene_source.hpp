@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Turns the text of a scene into the checked scene, with the discs and columns from its files.
 //
-// Rank 0 reads the files. The other ranks get the bytes, so all find the same scene or the same
-// problems.
+// Rank 0 reads the scene and broadcasts its text, so all ranks find the same scene or the same
+// problems. Each other rank reads its own share of the discs of `discs.from`.
 #pragma once
 
 #include <istream>
@@ -23,14 +23,14 @@ inline void append(std::vector<Problem>& problems, const std::vector<Problem>& m
 
 struct SceneSource {
     SceneText text; ///< equal on all ranks
-    /// On rank 0: the input after the text, at the first line of discs if there are any. On other
-    /// ranks the lines of their shares of `discs.from`, or null.
+    /// On rank 0: the rest of the input after the text, from the first line of discs, or the lines
+    /// of `discs.from`. On other ranks: the lines of their shares of `discs.from`, or null.
     std::unique_ptr<std::istream> stream{};
 };
 
-/// Reads the scene; `settings` override its keys. Discs of `discs.from` become lines after its
-/// text. The columns and the number of discs in a file of discs become settings. The columns of
-/// radii, masses and so on are read, too; they are incomplete if lines are wrong, see
+/// Reads the scene; `settings` override its keys. Discs of `discs.from` are added as lines after
+/// its text. The columns and the number of discs in a file of discs are added as settings. The
+/// columns of radii, masses and so on are read, too; they are incomplete if lines are wrong, see
 /// `disc_line_problems_of`. Appends problems found by all ranks to `problems`, and those found by
 /// rank 0 to `of_root`. **Collective.**
 SceneParameters read_with_files(SceneSource& source, std::vector<std::string> settings,
@@ -44,8 +44,8 @@ SceneParameters read_with_files(SceneSource& source, const std::vector<std::stri
 /// Whether the columns of the file of discs could not be read.
 bool are_columns_wrong(const SceneSource& source);
 
-/// Problems in the disc lines of a scene that has other problems, so that all are printed together.
-/// The lines follow a header in `stream`, or are in their own file. Called on one rank.
+/// Checks the lines of discs of a scene that has other problems, so that all are printed together.
+/// The lines are the rest of `stream`, or a file of their own. Called on one rank.
 std::vector<Problem> disc_line_problems_of(const SceneParameters& scene, std::istream* stream);
 
 } // namespace carrom

@@ -26,9 +26,9 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
-/// Runs `read` and adds the problems of an InputError to `problems`; true if there was none. A rank
-/// may find problems that other ranks do not have yet, so the exception must not leave this
-/// function before all ranks have agreed.
+/// Calls `read`. If it throws an InputError, adds the problems to `problems` and returns false. A
+/// rank may find problems that other ranks do not, so no rank may throw before all ranks have
+/// agreed.
 template <class Read> bool collect(Problems& problems, const Read& read) {
     try {
         read();
@@ -65,7 +65,7 @@ void check_destinations(const RunOptions& options, PlaceProblems& found) {
 /// Loads the scene and opens its input. **Collective.**
 SceneParameters load_scene(const RunOptions& options, const Problems& problems_so_far,
                            const Communicator& ranks, SceneSource& source) {
-    PlaceProblems found; // problems of all ranks together, listed by one rank
+    PlaceProblems found; // rank 0 alone lists problems that all ranks find
     Problems& problems = found.problems;
     bool is_readable = true;
     if (ranks.is_root()) {
@@ -96,7 +96,8 @@ SceneParameters load_scene(const RunOptions& options, const Problems& problems_s
     return scene;
 }
 
-/// Checks a restart without a scene, which needs fewer checks. **Collective.**
+/// Checks the output paths of a restart without an input, whose scene is in the checkpoint.
+/// **Collective.**
 void check_without_scene(const RunOptions& options, const Problems& problems_so_far,
                          const Communicator& ranks) {
     PlaceProblems found;
@@ -107,14 +108,15 @@ void check_without_scene(const RunOptions& options, const Problems& problems_so_
     found.agree(ranks);
 }
 
-/// If a run was killed before its first checkpoint, it begins again with the copy of its scene.
+/// If --resume continues a run that was killed before its first checkpoint, the copy of its scene
+/// becomes the input.
 RunOptions with_input_of_folder(RunOptions options, const Communicator& ranks) {
     if (!options.resume || !options.input.empty() || options.folder.empty()) return options;
     std::string copy, overrides;
     on_root(ranks, options.folder, ExitCode::bad_input, [&] {
         if (find_checkpoints(checkpoints_of_run(options.folder)).empty())
             copy = scene_copy_of(options.folder);
-        // Only a whole TOML scene is enough, because a copy does not contain lines of discs
+        // Only a copy in TOML will do: the other format needs lines of discs, which copies lack
         if (!copy.ends_with(".toml")) copy.clear();
         for (const std::string& override : overrides_of_copy(copy)) overrides += override + '\n';
     });

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The plan of how a run begins: its scene, and whether it continues from a checkpoint. The plan
-// follows from options, the scene's text and the names of files. Planning makes no discs, and
+// follows from options, the scene's text and the names of files. Planning generates no discs, and
 // leaves no new file or lock. load.hpp carries out the plan.
 //
-// Rank 0 opens files and reads; the other ranks get the bytes, so all ranks find the same scene or
-// the same problems. No output of the run has been written when a problem is printed.
+// Rank 0 reads the scene and broadcasts its text, so all ranks find the same scene or the same
+// problems. No output of the run has been written when a problem is printed.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct StartPlan {
     /// If the run was killed before its first checkpoint, `input` is the copy of the scene in the
     /// run's folder
     RunOptions options;
-    /// Scene of the input; if there is none, the checkpoint's scene replaces it
+    /// The scene of the input; without an input, the checkpoint's scene later replaces it
     SceneParameters scene{};
     SceneSource source{}; ///< the rest of the input after the scene's text
     RestartPlan restart{};
@@ -41,8 +41,8 @@ StartPlan plan_start(const RunOptions& options, const std::vector<Problem>& prob
 /// Describes the plan, line by line.
 std::string text_of(const StartPlan& plan);
 
-/// Returns only the scene; throws the problems of its text and its outputs' paths. Makes and locks
-/// nothing. **Collective.**
+/// Returns only the scene; throws the problems of its text and its outputs' paths. Creates no
+/// folder and takes no lock. **Collective.**
 SceneParameters load_scene_alone(const RunOptions& options, const std::vector<Problem>& problems,
                                  const Communicator& ranks);
 

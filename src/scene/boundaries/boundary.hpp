@@ -45,7 +45,7 @@ struct BoundaryDeclaration {
     CheckAllowance (*allowance)(const Boundary&) = nullptr;
 };
 
-/// All kinds in the order of the list in CMakeLists.txt, as on the reference page.
+/// All kinds in the order of the list in CMakeLists.txt; the reference page has the same order.
 const std::vector<BoundaryDeclaration>& all_boundaries();
 
 /// The keys of all four sides, ordered by side.
@@ -61,13 +61,13 @@ bool do_sides_let_discs_rest(const Effects& effects);
 
 /// The name of a side's key: side 0 and "speed" give "box.left.speed".
 std::string side_key(std::size_t side, std::string_view name);
-/// The condition of a key that has a meaning only for sides with `has_restitution`.
+/// The condition of a key that has a meaning only if the side's kind has `has_restitution`.
 Need side_reflects(std::size_t side);
-/// The condition of a key that has a meaning only for one kind of side.
+/// The condition of a key that has a meaning only if the side is of this kind.
 Need side_needs(std::size_t side, BoundaryKind kind);
 /// Text such as " of restitution 0.9" for summaries; empty if the wall is elastic.
 std::string loss_text(const Boundary& side);
-/// Whether discs may fit into a box of this size: by their area, and the largest by its diameter.
+/// Whether discs may fit into such a box, judged by their total area and by the largest diameter.
 bool has_room(const SceneParameters& scene, double width, double height);
 
 } // namespace carrom

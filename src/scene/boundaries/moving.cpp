@@ -8,8 +8,8 @@ namespace carrom {
 
 namespace {
 
-/// The left and bottom walls may only move inwards, because the box begins at 0 and places outside
-/// of it are invalid.
+/// The left and bottom walls may only move inwards, because the box begins at 0 and positions
+/// outside of it are invalid.
 Range wall_speeds(std::size_t side) {
     if (side % 2 == 1) return {};
     return {.low = 0, .why = "the wall would leave the box; let the opposite one move out"};
@@ -31,7 +31,7 @@ std::vector<Rule> rules_of_moving_sides() {
     };
 }
 
-/// Until the last step, moving walls must leave room for discs, and at most double the box's edges.
+/// Checks that at the last step the discs have room, and that no edge has more than doubled.
 void check_moving_walls(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const auto& sides = scene.effects.boundaries;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A side through which discs leave the box for ever.
+// A side through which discs leave the box. They come back only through inlets.
 #include "scene/boundaries/boundary.hpp"
 #include "scene/rule_parts.hpp"
 

@@ -33,7 +33,7 @@ std::vector<Rule> rules_of_periodic_sides() {
 }
 
 /// Checks that each period is longer than two diameters, so that a disc cannot touch another one on
-/// both sides at once. Sheared sides are periodic here, too.
+/// both sides at once. Sheared sides count as periodic here.
 void check_periodic_box(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const Periods periods = scene.effects.periods(scene.box);
@@ -47,8 +47,8 @@ void check_periodic_box(const SceneDraft& draft) {
                              period, least));
 }
 
-/// Limits the number of images of a disc. The engines search partners up to the mean distance
-/// between discs, and each period within this distance gives one more image of the disc itself.
+/// Limits the number of images of a disc. The engines search for partners up to the mean
+/// distance between discs, and each period within it gives one more image of the disc itself.
 void check_images(const SceneDraft& draft) {
     constexpr double most = 0x1p20;
     const SceneParameters& scene = draft.scene;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A periodic side with images that move. The shear rate and the rules of conflict are declared with
+// A periodic side whose images move. The shear rate and the rules of conflict are declared with
 // the flow (scene/effects/shear.cpp), because the bottom and the top side share them.
 #include "scene/boundaries/boundary.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A wall that discs leave as if they came from a gas of its temperature.
+// A wall from which discs bounce off as if they came from a gas of the wall's temperature.
 #include <cmath>
 
 #include "scene/boundaries/boundary.hpp"

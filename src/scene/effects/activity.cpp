@@ -6,14 +6,14 @@
 // and the direction changes in two ways, each at its own rate (M. E. Cates and J. Tailleur, EPL
 // 101, 20010 (2013)):
 //   rotation   dphi = sqrt(2 D) dW: active Brownian discs
-//   tumbles    at random times phi becomes any angle: run and tumble
-// At a sync, a time t after the last one, the direction first changes by the exact law for that
-// time. Then v += (1 - exp(-rate t)) u e. Together with the thermostat this is the exact solution
-// for a constant force. The only error is that directions and velocities are constant between
-// syncs. For a free disc it enlarges the active part of diffusion by the share (D t)^2 / 12, and
-// the thermal part by (rate t)^2 / 12.
+//   tumbles    at random times phi gets a new value, all equally likely: run and tumble
+// At a sync, a time t after the previous one, the change of the direction is drawn from its exact
+// distribution for that time. Then v += (1 - exp(-rate t)) u e. Together with the thermostat this
+// is the exact solution for a constant force. The only error is that directions and velocities are
+// constant between syncs. For a free disc it increases the active part of the diffusion coefficient
+// by the fraction (D t)^2 / 12, and the thermal part by (rate t)^2 / 12.
 //
-// Directions turn neither in collisions nor with the spins of rough discs.
+// Neither collisions nor the spins of rough discs change directions.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    /// Draws the direction at this sync for a disc whose direction was `angle` since the last one.
+    /// Draws the direction from this sync on. `angle`: the direction since the previous sync.
     double later(double angle, DiscRandom random) const {
         if (kept_ < 1 && random.uniform() >= kept_) return random_angle(random);
         return wrapped_angle(spread_ > 0 ? angle + spread_ * random_normals(random).x : angle);
@@ -132,7 +132,7 @@ std::vector<Rule> rules_of_activity() {
     };
 }
 
-/// Reports rates so high that a direction hardly depends on the one at the sync before.
+/// Reports rates so high that a direction hardly depends on the one at the previous sync.
 void check_times_of_activity(const SceneDraft& draft) {
     constexpr double longest = 4;
     const Activity& activity = draft.scene.effects.activity;

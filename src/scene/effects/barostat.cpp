@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constant pressure: moves of the volume at syncs, as in Monte Carlo at constant N, P and T (W. W.
-// Wood, J. Chem. Phys. 48, 415 (1968)).
+// Constant pressure: Monte Carlo moves change the volume at syncs, as in simulations at constant N,
+// P and T (W. W. Wood, J. Chem. Phys. 48, 415 (1968)).
 //
 // The box keeps its edges, and all radii are multiplied by one factor s. In units of the discs, the
 // box and the positions in it become smaller or larger together. The positions in units of the box
 // and the volume V = A / (s^2 <d^2>), with the box's area A and the mean <d^2> of the squared
 // diameters in the scene, have the weight
 //     V^N exp(-p V),   p = P <d^2> / kT,   if no two discs overlap.
-// The structure of hard discs does not depend on temperature. So velocities stay as they are, in
-// the unit of the box, and any kT gives the same result.
+// The structure of hard discs does not depend on temperature. So the moves do not change
+// velocities, in units of the box, and the result does not depend on kT.
 //
 // At a sync the closest pair limits how far radii can grow. The limit is a minimum over pairs, so
 // all ranks find the same one. With the discs at rest the weight is a function of V alone, so the
-// `n_moves` moves of a sync take almost no time. Each move draws a new volume V' evenly from a
+// `n_moves` moves of a sync take almost no time. Each move draws a new volume V' uniformly from a
 // range about the present one, and accepts it with the probability min(1, exp(-p (V' - V)) (V' /
-// V)^N) (Metropolis). During a sync s stays in a cell of a fixed partition, whose ends differ by a
-// factor of 1.1, so that only pairs closer than the largest diameter in the cell must be known. The
-// partitions of even and odd syncs differ by half a cell. So each sync conserves the distribution
-// exactly, and V can reach any value.
+// V)^N) (Metropolis). The range of s is divided into cells whose ends differ by a factor of 1.1.
+// During a sync s stays in its cell, so that only pairs closer than the largest diameter in the
+// cell must be known. The cells of even and odd syncs are shifted by half a cell. So each sync
+// conserves the distribution exactly, and V can reach any value.
 //
 // With `axes = "each"` the ratio of the sides changes as well, at a constant area: x positions are
-// multiplied by a factor t, y positions are divided by it. In units of the discs, each side then
-// has moves of its own. The weight dLx dLy V^N exp(-p V) is that of V times the even distribution
-// of ln(Lx / Ly). So a sync draws ln Lx evenly from the range in which no discs overlap, within a
-// cell of a partition like that of sizes (Gibbs sampling). Discs that are far apart do not matter
-// within a cell, and the range is the same for a move and its reverse. Sides stay within half and
-// twice their length in the scene, because the sides of a fluid feel no force to a ratio.
+// multiplied by a factor t, and y positions are divided by it. In units of the discs, the two sides
+// then change independently. The weight dLx dLy V^N exp(-p V) is that of V times a uniform
+// distribution of ln(Lx / Ly). So a sync draws ln Lx uniformly from the range in which no discs
+// overlap, within a cell like those of s (Gibbs sampling). Within a cell only discs near each other
+// limit the range, and it is the same for a move and its reverse. Sides stay between half and twice
+// their length in the scene, because in a fluid no force keeps their ratio near any value.
 //
 // Only + - * / and sqrt are used. The logarithm of V' / V is computed by a series, and a random
 // number with an exponential distribution decides if a move is accepted. Cost: a halo exchange and
@@ -51,8 +51,8 @@ inline constexpr std::array words_of<BarostatAxes>{Word{"together", BarostatAxes
 namespace {
 
 constexpr int n_moves = 64;
-constexpr double cell_ratio = 1.1; ///< ratio of the factors s at both ends of a cell
-/// Ratio of the sides along x at both ends of a cell
+constexpr double cell_ratio = 1.1; ///< ratio of the upper to the lower end of a cell of s
+/// Ratio of the upper to the lower end of a cell of the side along x
 constexpr double stretch_ratio = 1.1;
 
 /// ln(a / b) for ratios from 2/3 to 3/2, by the series of 2 artanh((a - b) / (a + b)).
@@ -75,7 +75,7 @@ struct Cell {
     double low = 1, high = 1;
 };
 
-/// The cell that contains `value`, in the partition of this sync into cells from c to c * ratio.
+/// The cell [c, c * ratio) that contains `value`; the cells differ between even and odd syncs.
 Cell cell_of(double value, double ratio, std::int64_t n_syncs) {
     double low = n_syncs % 2 == 0 ? 1 : std::sqrt(ratio);
     while (value < low) low /= ratio;
@@ -134,8 +134,8 @@ public:
     Box box() const override { return box_; }
     double largest_stretch() const override { return stretch_ratio; }
 
-    /// 1 / Lx has the weight of an even distribution of ln Lx: an even Lx is accepted with the
-    /// probability `least` / Lx, and is drawn again otherwise.
+    /// Draws Lx with a density proportional to 1 / Lx, so that ln Lx is uniform: a uniform Lx is
+    /// accepted with the probability `least` / Lx, and otherwise it is drawn again.
     void stretch(std::int64_t n_syncs, const StretchRange& room) override {
         const double area = box_of_scene_.area(), widest = area / shortest_side(),
                      unit = box_of_scene_.x;
@@ -161,7 +161,7 @@ private:
         return {barostat_.seed, Purpose::sync, id, static_cast<std::uint64_t>(n_syncs)};
     }
     double volume_at(double size) const { return volume_of_scene_ / (size * size); }
-    /// A periodic box must be slightly longer than four radii.
+    /// Each side of a periodic box must be slightly longer than four radii.
     double shortest_side() const { return shortest_ * size_; }
     double most_size() const { return box_.shortest() / shortest_; }
     Cell cell_at(std::int64_t n_syncs) const { return cell_of(size_, cell_ratio, n_syncs); }
@@ -178,7 +178,7 @@ private:
 
     Barostat barostat_;
     double n_discs_, volume_of_scene_;
-    double shortest_; ///< the shortest side of a box for radii of size 1
+    double shortest_; ///< the shortest side that the box may have at s = 1
     Box box_of_scene_, box_;
     double size_ = 1;
 };

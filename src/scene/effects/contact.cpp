@@ -32,7 +32,7 @@ const Need rows_of_lossy_discs{
         return are_pairs_lossy(s.effects) && !s.effects.contact.rows.empty();
     }};
 constexpr Range shares{0, 1};
-constexpr std::size_t most_rows = 100; ///< a table has the square of this number of entries
+constexpr std::size_t most_rows = 100; ///< of species; the table of pairs has most_rows^2 entries
 
 /// The indices of the numbers in a row of `effects.contact.pairs`.
 namespace pair_row {
@@ -173,8 +173,9 @@ std::string summary_of_contacts(const Effects& effects) {
     return {};
 }
 
-/// Whether collisions reduce the sum of kinetic and rotational energy. Discs of restitution 1 keep
-/// it if their surfaces are smooth, or stick and reverse all of the sliding velocity.
+/// Whether collisions may reduce the sum of kinetic and rotational energy. Rough discs of
+/// restitution 1 conserve it if they slide without friction, or if each collision reverses all of
+/// the sliding velocity.
 bool take_energy(const ContactEffect& contact) {
     if (contact.kind == ContactKind::restitution) return true;
     if (contact.kind != ContactKind::rough) return false;

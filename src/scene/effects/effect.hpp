@@ -4,14 +4,14 @@
 // Each file of this folder declares one effect: its tables, keys (and which of them are seeds),
 // rules, checks, line in the summary, allowance in the self-check, energy besides the kinetic one,
 // and action at syncs. The reader of scenes, the pages, reports, restarts, replicas, the self-check
-// and the engines loop over `all_effects`, so they contain the name of no effect. Besides the
+// and the engines loop over `all_effects`, so none of them names a particular effect. Besides the
 // discs' states and columns, a checkpoint contains the values that an effect keeps from sync to
 // sync.
 //
 // The folder belongs to the scene because keys and rules are functions of SceneParameters. It uses
-// the dynamics, where the templates of the hot paths are, and the engines use it. So an effect
-// that acts at syncs has its physics in its file here. An effect that acts in collisions or in
-// flight has its physics in src/dynamics, and only its declaration here.
+// src/dynamics, which has the code for each flight and collision, and the engines use it. So an
+// effect that acts at syncs has its physics in its file here. An effect that acts in collisions or
+// in flight has its physics in src/dynamics, and only its declaration here.
 //
 // To add an effect, write a file in this folder, and add its name to the list in
 // src/scene/CMakeLists.txt.
@@ -36,15 +36,15 @@ namespace carrom {
 /// Changes that the self-check must not report, because an effect causes them.
 struct CheckAllowance {
     bool collisions_take_energy = false;
-    bool walls_give_energy = false; ///< walls do work; the amount is only known during the run
+    bool walls_give_energy = false; ///< walls do work that is not known before the run
     bool acts_at_syncs = false;     ///< velocities change at syncs; the engine sums the energy gain
-    /// Whether velocities change again between the state at a sync and the flights after it
+    /// Whether velocities change a second time, after outputs at a sync and before the next flights
     bool acts_before_flights = false;
     /// Whether surfaces do work in collisions: see EffectDeclaration::work_in_collision
     bool surfaces_give_energy = false;
 };
 
-/// A disc in the box. Its unit of time is that of the Effects that a function gets along with it.
+/// A disc in the box. Its unit of time is that of the `Effects` that the same function receives.
 struct ShownDisc {
     double x = 0, y = 0, vx = 0, vy = 0, spin = 0;
     SizeAndMass has;
@@ -57,13 +57,13 @@ struct ShownDisc {
 struct OtherEnergy {
     const char* name;       ///< the energy's name in the report
     const char* words;      ///< text after the value in the summary
-    double Totals::* value; ///< where the sum is kept; effects with the same name share it
+    double Totals::* value; ///< stores the sum; energies with the same name share it
     double (*of_disc)(const ShownDisc&, const Effects&, const Box&);
-    /// For an energy of position: its largest value for a disc of mass 1, which sets the scale of
-    /// rounding errors. Null for other energies, and where `is_of_syncs` is set.
+    /// For a potential energy: its largest value for a disc of mass 1, which sets the scale of
+    /// rounding errors. Null for other energies, and if `is_of_syncs` is set.
     double (*largest)(const Effects&, const Box&) = nullptr;
-    /// Whether this energy turns into kinetic energy only at syncs. The engine sums up what discs
-    /// gain there, so the self-check leaves this energy out.
+    /// Whether this energy turns into kinetic energy only at syncs. The engine adds up the kinetic
+    /// energy that discs gain at syncs, so the self-check leaves this energy out.
     bool is_of_syncs = false;
 };
 
@@ -81,7 +81,7 @@ struct EndNumber {
     std::uint64_t value;
 };
 
-/// How an effect changes the momentum of all discs along an axis.
+/// How an effect changes the total momentum of the discs along an axis.
 struct CommonMotion {
     bool is_stopped = false; ///< discs give momentum to something that does not move with them
     bool is_driven = false;  ///< discs gain momentum in one direction
@@ -89,8 +89,8 @@ struct CommonMotion {
 
 /// How the common velocity of all discs along an axis is treated.
 enum class Drift : std::uint8_t {
-    /// Part of the temperature, because the axis has walls, or because momentum is exchanged in
-    /// both directions
+    /// It counts as thermal motion, because the axis has walls, or because discs both give and
+    /// receive momentum along it
     is_heat,
     is_kept,   ///< subtracted, because nothing stops it; N - 1 degrees of freedom are left
     is_driven, ///< subtracted, because it is a flow; velocities relative to it fluctuate
@@ -117,32 +117,32 @@ struct EffectDeclaration {
     // The next three functions serve the self-check and use the micro-step as the unit of time. The
     // first returns an upper bound of the share of the kinetic energy that is left after `time`.
     double (*energy_left)(const Effects&, double time) = nullptr;
-    /// The kinetic energy that the effect gives to a disc along its displacement.
+    /// The work that the effect does on a disc along this displacement.
     double (*work)(const Effects&, const Way&) = nullptr;
-    /// The energy that surfaces give in a collision with this impulse and sum of radii.
+    /// The energy that moving surfaces give in a collision; `radii` is the sum of both radii.
     double (*work_in_collision)(const Effects&, double impulse, double radii) = nullptr;
     /// Whether discs may come to rest on each other or on a wall, so that a contact time is needed.
     bool (*lets_discs_rest)(const Effects&) = nullptr;
-    /// A typical speed, per step, that the effect gives to discs.
+    /// A typical speed that the effect gives to discs, as a length per step.
     double (*usual_speed)(const SceneParameters&) = nullptr;
     /// The object that acts at syncs; nothing in a scene without the effect.
     std::unique_ptr<SyncEffect> (*at_syncs)(const SceneParameters&) = nullptr;
     /// The numbers at the end of a run, from the values that the effect kept after the last sync.
     std::vector<EndNumber> (*at_end)(std::span<const std::int64_t> kept) = nullptr;
-    /// Whether the effect reverses, at each sync, changes of energy since the sync before, so that
-    /// the mean kinetic energy jumps there.
+    /// Whether the mean kinetic energy jumps at syncs, because the effect then reverses changes of
+    /// the energy since the previous sync.
     bool (*makes_energy_jump)(const Effects&) = nullptr;
-    /// How the effect exchanges momentum with all discs along a periodic axis, for example by a
-    /// thermostat or by sides that rub; null if it does not.
+    /// How the effect changes the total momentum along a periodic axis, as a thermostat or a side
+    /// with friction does; null if it does not.
     CommonMotion (*common_motion)(const Effects&, Axis) = nullptr;
-    /// Whether kernels of GPUs contain the effect. If the function is missing, the effect cannot be
+    /// Whether the GPU kernels include the effect. If the function is missing, the effect cannot be
     /// combined with machine.gpu.
     bool (*runs_on_gpu)(const Effects&) = nullptr;
     /// Why Z is undefined in a scene with the effect; empty if it is defined.
     std::string (*reason_without_z)(const Effects&) = nullptr;
 };
 
-/// All effects in the order of the list in CMakeLists.txt, as on the reference page.
+/// All effects in the order of the list in CMakeLists.txt; the reference page has the same order.
 const std::vector<EffectDeclaration>& all_effects();
 
 /// One line for a summary, such as "restitution 0.9 of pairs; drag 0.01"; empty if there
@@ -150,13 +150,13 @@ const std::vector<EffectDeclaration>& all_effects();
 std::string summary_of(const Effects& effects);
 /// The changes that these effects and sides of the box cause, for the self-check.
 CheckAllowance allowance_of(const Effects& effects);
-/// The energies other than kinetic energy, in the order of the effects.
+/// All energies of discs besides the kinetic energy, in the order of the effects.
 std::vector<OtherEnergy> other_energies_of(const Effects& effects);
-// For each of these functions: the product or the sum over all effects; see EffectDeclaration.
+// `energy_left_by` is the product over all effects, the others are sums; see EffectDeclaration.
 double energy_left_by(const Effects& effects, double time);
 double work_on_way(const Effects& effects, const Way& way);
 double work_in_collision(const Effects& effects, double impulse, double radii);
-/// The largest typical speed of all effects.
+/// The largest of the typical speeds that effects give to discs, as a length per step.
 double usual_speed_of_effects(const SceneParameters& scene);
 /// `kept` is the list that Engine::kept_by_effects returns.
 std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
@@ -165,8 +165,8 @@ std::vector<EndNumber> end_numbers_of(const SceneParameters& scene,
 std::string reason_without_z(const Effects& effects);
 /// Whether the mean kinetic energy jumps at syncs.
 bool does_energy_jump(const Effects& effects);
-/// Warns if the kinetic energy changes much between syncs, or if the samples' mean of it is not the
-/// mean over time.
+/// Warns if the kinetic energy changes much between syncs, or if its mean over the samples is not
+/// its mean over time.
 void check_energy_jumps(const SceneDraft& draft);
 /// How the common velocity of all discs along `axis` is treated in temperature, pressure and
 /// displacements. No other function decides this.

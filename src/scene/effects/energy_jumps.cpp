@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks scenes in which the mean kinetic energy changes between syncs and jumps back at syncs.
-// Such scenes need frequent syncs, and samples that are spread over the time between two syncs or
-// include syncs, where they are taken alternately before and after the jump.
+// Such scenes need frequent syncs. Samples must be spread over the time between two syncs, or some
+// must be at syncs, where they are taken alternately before and after the jump.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -59,8 +59,8 @@ void warn_of_rare_acts(const SceneDraft& draft) {
             often * interval, std::max(1.0, static_cast<double>(scene.micro_steps) / (2 * often))));
 }
 
-/// Warns of samples that have only a few different delays after a sync, because they do not give
-/// the mean over time. Samples at syncs are taken alternately before and after the effects.
+/// Warns if samples are taken at only a few different times after a sync, because their mean is not
+/// the mean over time. Samples at syncs are taken alternately before and after the effects act.
 void warn_of_samples_between_syncs(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements || !does_energy_jump(scene.effects)) return;

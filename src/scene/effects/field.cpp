@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A field constant in time (dynamics/external_field.hpp) acts by kicks at syncs: half a kick, a
-// flight from sync to sync, half a kick (G. Strang, SIAM J. Numer. Anal. 5, 506 (1968)). A kick is
-// v -= (t / 2) grad V / m at the position at the sync; t is the time between syncs.
+// flight from sync to sync, half a kick (G. Strang, SIAM J. Numer. Anal. 5, 506 (1968)). Half a
+// kick is v -= (t / 2) grad V / m, with the position at the sync and the time t between syncs.
 //
 // The map is symplectic and reversible, so free discs conserve an energy that differs from m v^2 /
-// 2 + V by a share of at most (w t)^2 / 4, with w^2 = V'' / m, and energy does not drift. In a trap
-// the disc stays exactly on an ellipse, with the frequency w (1 + (w t)^2 / 24 + ...). Outputs at a
-// sync contain the state between the two half kicks. At other times they contain the velocity in
-// flight, which is right for the middle between two syncs.
+// 2 + V by a fraction of at most (w t)^2 / 4, with w^2 = V'' / m, and energy does not drift. In a
+// trap the disc stays exactly on an ellipse, with the frequency w (1 + (w t)^2 / 24 + ...). Outputs
+// at a sync contain the state between the two half kicks. At other times they contain the velocity
+// in flight, which is accurate only midway between two syncs.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -31,8 +31,8 @@ inline constexpr std::array words_of<FieldKind>{
 namespace {
 
 constexpr std::size_t most_values = std::size_t{1} << 18, most_strengths = 4096;
-/// Limits of w t (see above) at the strongest curvature: by default, without a warning, and at all;
-/// beyond the last one, orbits differ completely from the true ones.
+/// Largest w t (see above) where the field curves most: for the default time between syncs, without
+/// a warning, and without an error. Beyond the last one, orbits differ completely from true ones.
 constexpr double usual_turn = 0.05, large_turn = 0.5, largest_turn = 1;
 
 class FieldAtSyncs final : public SyncEffect {
@@ -74,7 +74,7 @@ Need field_kinds(std::string text, FieldKinds kinds) {
             }};
 }
 
-/// Stores the values of the rows, or none if a row is wrong, which the checks of rows report.
+/// Stores the values of all rows, or no value if a row is wrong. Other checks report wrong rows.
 void take_rows_of_field(FieldValues& values, const Values& rows) {
     values = {};
     for (const Value& row : rows) {
@@ -238,7 +238,7 @@ std::vector<Rule> rules_of_field() {
     };
 }
 
-/// The product w t (see the top of this file) of the lightest disc at the strongest curvature.
+/// The product w t (see the top of this file) for the lightest disc where the field curves most.
 double turn_between_syncs(const SceneParameters& scene) {
     const ExternalField& field = scene.effects.field;
     double lightest = scene.effects.species.empty() ? 1 : scene.effects.species.front().mass;

@@ -17,7 +17,7 @@ namespace carrom {
 
 namespace {
 
-/// The least number of syncs in a period of gravity that changes.
+/// The least period of gravity that changes, in units of the time between syncs.
 constexpr double least_syncs = 8;
 
 const Need swaying{"without 'effects.gravity.amplitude_x' or 'effects.gravity.amplitude_y'",
@@ -133,7 +133,7 @@ std::vector<Rule> rules_of_gravity() {
     };
 }
 
-/// A disc's potential energy, with heights above the edges of the box towards which gravity pulls.
+/// A disc's potential energy. Heights count from the edges of the box towards which gravity pulls.
 double energy_of_height(const ShownDisc& disc, const Effects& effects, const Box& box) {
     const auto height = [](double place, double pull, double length) {
         return pull < 0 ? place : length - place;
@@ -143,7 +143,7 @@ double energy_of_height(const ShownDisc& disc, const Effects& effects, const Box
                             std::fabs(g.y) * height(disc.y, g.y, box.y));
 }
 
-/// Whether a disc under the acceleration `g` falls more than half the longer edge between syncs.
+/// Whether discs under the acceleration `g` fall by over half the box's longer edge between syncs.
 bool falls_too_far(const SceneParameters& scene, double g) {
     const double time = steps_between_syncs(scene), drag = scene.effects.drag;
     if (drag * time > longest_drag) return false; // check_times_of_drag reports it
@@ -219,7 +219,7 @@ std::string summary_of_gravity(const Effects& effects) {
     return text;
 }
 
-/// Whether discs rub on any side of the box, so that its tangential force depends on contacts.
+/// Whether any side of the box exerts friction on discs, a force that depends on each contact.
 bool do_surfaces_rub(const Effects& effects) {
     for (std::size_t side = 0; side < effects.boundaries.size(); ++side)
         if (does_rub(effects, side)) return true;

@@ -58,7 +58,7 @@ std::vector<Rule> rules_of_growth() {
     };
 }
 
-/// Checks that discs have room until the last step.
+/// Checks that the growing discs still have room at the last step.
 void check_growth(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     if (scene.effects.growth == 0) return;
@@ -70,7 +70,7 @@ void check_growth(const SceneDraft& draft) {
     const double most = std::min({std::sqrt(densest / scene.packing()),
                                   room(scene.box.x, scene.effects.is_periodic_x()),
                                   room(scene.box.y, scene.effects.is_periodic_y())});
-    // Missing room at the start is reported by check_sizes and check_periodic_box
+    // check_sizes and check_periodic_box report discs that have no room at the start
     if (growth <= most || most < 1) return;
     draft.refuse(
         {"effects.growth.rate"},

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Inlets: discs that come in through open sides, as from a gas outside.
 //
-// The gas outside is ideal, with temperature kT and density n. Discs come in at the line where
-// other discs depart: their centre is then a radius outside the side. In a time t and on a length l
-// the mean number of arrivals is n sqrt(kT / (2 pi m)) t l. Arrivals are independent, so their
-// number has a Poisson distribution. The inward velocity has the density v exp(-m v^2 / 2 kT), and
-// the velocity along the side is Maxwell's, as for discs that leave a thermal wall. At the next
-// sync an arrival is left out if another disc or an obstacle blocks its entry. Otherwise it is put
-// where it has flown to by then, or at its place of entry if its path is blocked. Arrival is the
-// reverse of departure, so a gas in equilibrium has the activity n.
+// The gas outside is ideal, with temperature kT and density n. Discs come in where other
+// discs depart: with their centre one radius outside the side. In a time t and on a length l the
+// mean number of arrivals is n sqrt(kT / (2 pi m)) t l. Arrivals are independent, so their number
+// has a Poisson distribution. The inward velocity has the density v exp(-m v^2 / 2 kT), and
+// the velocity along the side has a Maxwell distribution, as for discs that leave a thermal wall.
+// At the next sync an arrival is left out if another disc or an obstacle blocks its entry.
+// Otherwise the disc is put where it would have flown by then, or where it entered if its path is
+// blocked. Arrival is the reverse of departure, so a gas in equilibrium has the activity n.
 //
-// The discs that come in are those that have departed before. Random numbers depend on the seed,
-// the side and the count of syncs.
+// Only discs that have departed before can come in. Random numbers depend on the seed, the side and
+// the count of syncs.
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +27,7 @@ namespace carrom {
 
 namespace {
 
-constexpr double most_arrivals = 1e5; ///< largest number of arrivals in one sync at one side
+constexpr double most_arrivals = 1e5; ///< at one side between two syncs
 
 bool has_inlets(const Effects& effects) {
     return std::ranges::any_of(effects.boundaries,
@@ -70,7 +70,7 @@ public:
 private:
     void add_arrivals(std::size_t side, std::int64_t n_syncs, std::vector<Arrival>& all) const {
         const Inlet& inlet = sides_[side].inlet;
-        const std::size_t low = side < 2 ? 2 : 0; // the two sides at the ends of this side
+        const std::size_t low = side < 2 ? 2 : 0; // this side ends at the sides low and low + 1
         DiscRandom random(seed_, Purpose::inlet, side, static_cast<std::uint64_t>(n_syncs));
         const auto is_wall = [&](std::size_t other) {
             return sides_[other].kind != BoundaryKind::open;
@@ -90,7 +90,7 @@ private:
             all.push_back(one);
         }
     }
-    /// Sets the ids that may come in: all, or only those of one row of `discs.species`.
+    /// Sets the range of ids that the disc may have: all, or those of one row of `discs.species`.
     void set_ids(Arrival& one, const Inlet& inlet) const {
         one.end = n_discs_;
         if (inlet.species == 0) return;
@@ -161,8 +161,8 @@ std::vector<Table> tables_of_inlets() {
     return all;
 }
 
-/// Discs come in at syncs. By default each step has a sync, so that every output contains the discs
-/// that have come in until then.
+/// Makes the default time between syncs at most a step, because discs come in at syncs, and outputs
+/// should contain the discs that have arrived before them.
 void sync_in_each_step_of_inlets(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (has_inlets(scene.effects) && !draft.settings.has("time.sync_every"))

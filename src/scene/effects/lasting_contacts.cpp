@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contacts that last from sync to sync (dynamics/contact_impulses.hpp).
 //
-// Every rank gathers all discs, in the order of ids, and computes the same impulses. This takes
-// some 500 bytes for each disc of the run on each rank. The iteration begins from the impulses of
-// the last sync, so checkpoints store them, 32 bytes a contact. While a heap is at rest, its states
-// and impulses repeat bit by bit, and a sync only compares them with those of the last sync.
+// Every rank gathers all discs, in order of id, and computes the same impulses. This takes about
+// 500 bytes per disc of the run on each rank. The iteration begins with impulses of the previous
+// sync, so checkpoints store them, with 32 bytes per contact. While a heap is at rest, its states
+// and impulses are bitwise the same at each sync. Then a sync only compares them and computes none.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -63,7 +63,7 @@ public:
     }
 
 private:
-    /// The discs of this rank in the order of ids, which stays the same while their cells change.
+    /// The discs of this rank in order of id, because `at.discs` is sorted again as cells change.
     static std::vector<HeapDisc> discs_of(const SyncDiscs& at) {
         std::vector<HeapDisc> mine;
         for (std::size_t i = 0; i < at.discs.size(); ++i) {
@@ -109,8 +109,8 @@ private:
 
     ContactImpulses impulses_;
     std::vector<KeptImpulse> kept_;
-    // The last result is kept for the case that the next sync begins with the same states and
-    // impulses.
+    // The result of the last sync is kept, because the next sync uses it again if it begins with
+    // the same states and impulses.
     /// Discs of this rank before the sync, and all discs after it
     std::vector<HeapDisc> mine_, after_;
     std::vector<KeptImpulse> kept_before_;
@@ -171,13 +171,13 @@ double pull_of(const SceneParameters& scene) {
     return std::hypot(scene.effects.gravity.x, scene.effects.gravity.y);
 }
 
-/// The height of the hop that a disc at rest makes from one sync to the next.
+/// The height to which a disc at rest hops between two syncs.
 double hop_of(const SceneParameters& scene) {
     const double time = steps_between_syncs(scene);
     return pull_of(scene) * time * time / 8;
 }
 
-/// Shortens the default time between syncs until hops of discs at rest are at most a hundredth of
+/// Halves the default time between syncs until the hops of discs at rest are at most a hundredth of
 /// the smallest radius high.
 void shorten_sync_for_hops(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
@@ -190,13 +190,14 @@ void shorten_sync_for_hops(const SceneDraft& draft) {
         scene.sync_every /= 2;
 }
 
-/// Whether hops of discs at rest are at most a twentieth of the smallest radius; reports others.
+/// Whether discs at rest hop by at most a twentieth of the smallest radius; reports higher hops.
 bool check_hops(const SceneDraft& draft) {
     const SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene);
     if (!(hop_of(scene) > 0.05 * radius)) return true;
-    // gravity.cpp reports discs that fall by half the longer edge between syncs, and a fall is four
-    // hops. It tests each axis alone, so an oblique fall may be sqrt(2) times as long.
+    // gravity.cpp reports discs that fall by more than half the longer edge between syncs; such a
+    // fall is four times the height of a hop. It tests each axis alone, so an oblique fall may be
+    // sqrt(2) times as long.
     if (hop_of(scene) > std::numbers::sqrt2 / 8 * scene.box.longest()) return false;
     const double most = std::floor(std::sqrt(0.05 * radius / hop_of(scene)) *
                                    static_cast<double>(scene.sync_every));
@@ -209,8 +210,8 @@ bool check_hops(const SceneDraft& draft) {
     return false;
 }
 
-/// Checks the speed below which contacts last. If it is too small, discs at rest bounce on; if it
-/// is too large, discs search partners far away, and impacts lose all of their normal velocity.
+/// Checks the speed below which contacts last. If it is too small, discs at rest keep bouncing. If
+/// it is too large, discs need partners that are far away, and discs do not bounce in real impacts.
 void check_speed(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     const double radius = smallest_radius_of(scene), time = steps_between_syncs(scene);
@@ -237,7 +238,7 @@ void check_speed(const SceneDraft& draft) {
             speed, fallen, remedy));
 }
 
-/// Warns of samples of forces that are not at syncs, because lasting contacts act only at syncs.
+/// Warns if forces are not sampled at syncs, because lasting contacts act only at syncs.
 void check_samples_of_forces(const SceneDraft& draft) {
     SceneParameters& scene = draft.scene;
     if (!scene.measurements) return;
@@ -272,7 +273,7 @@ void warn_of_unlike_masses(const SceneDraft& draft) {
 
 void check_heap(const SceneDraft& draft) {
     if (!has_lasting(draft.scene) || !(smallest_radius_of(draft.scene) > 0)) return;
-    if (!draft.knows_syncs() || pull_of(draft.scene) == 0) return; // reported as a conflict already
+    if (!draft.knows_syncs() || pull_of(draft.scene) == 0) return; // already reported
     if (check_hops(draft)) check_speed(draft);
     warn_of_unlike_masses(draft);
     check_samples_of_forces(draft);

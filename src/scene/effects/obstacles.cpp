@@ -20,10 +20,10 @@ namespace {
 const Need some_obstacles{no_obstacles, has_fixed_bodies};
 
 /// The largest coordinates and radii of arcs, in units of the box's longer edge. Larger ones would
-/// lose digits.
+/// lose precision.
 constexpr double farthest_centre = 100;
 
-/// Rows [x, y, radius] of circles, or [x, y, radius, from, to] of arcs between angles in degrees.
+/// Rows are circles [x, y, radius], or arcs [x, y, radius, from, to] between angles in degrees.
 Key arcs_key() {
     Key key = named_key("effects.obstacles.arcs", "length, degrees",
                         "Circles without thickness, or parts of them, counterclockwise from one "

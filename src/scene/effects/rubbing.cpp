@@ -73,7 +73,7 @@ std::vector<Key> keys_of_rubbing() {
     return all;
 }
 
-/// Checks that the velocity of a surface along itself is a valid speed of discs.
+/// Checks that no surface slides faster than discs may fly.
 void check_room_of_rubbing(const SceneDraft& draft) {
     const Effects& effects = draft.scene.effects;
     const auto hold = [&draft](const std::string& table, const Surface& surface) {

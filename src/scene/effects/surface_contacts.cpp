@@ -73,7 +73,7 @@ std::vector<Key> keys_of_surface_contacts() {
     return all;
 }
 
-/// What is missing, so that a row's friction has no meaning; empty if nothing is missing.
+/// The setting that a row's friction needs and the scene lacks; empty if it lacks none.
 std::string why_smooth(const SceneParameters& scene, std::size_t surface, const Numbers& row) {
     const double common = common_numbers(scene.effects, surface).surface.tangential_restitution;
     return is_given(row, of_tangential) || common != -1 ? "" : "a tangential_restitution above -1";
@@ -109,7 +109,7 @@ std::string summary_of_surface_contacts(const Effects& effects) {
     return all;
 }
 
-/// Whether `holds(numbers, surface)` is true for any row of any surface.
+/// Whether `holds(numbers)` is true for at least one row of any surface.
 template <class What> bool is_any_row(const Effects& effects, const What& holds) {
     for (std::size_t k = 0; k < SurfaceContacts::n_surfaces; ++k)
         for (const SurfaceContact& row : effects.surface_contacts.rows[k])

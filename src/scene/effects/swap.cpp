@@ -8,19 +8,19 @@
 //   1. pairs of numbers are proposed by random bits, which depend on seed, sync, round and number.
 //      Each number is in one pair at most. A disc's bound is the largest radius that it can have
 //      after the round: the larger radius of its pair, or its own radius if it is in no pair.
-//   2. A pair is accepted if both discs fit: each disc's distance to other neighbours is at least
-//      the sum of both bounds, and its distance to walls and fixed bodies is at least its bound.
+//   2. A pair is accepted if both discs fit: each disc's distance to every other neighbour is at
+//      least the sum of the two bounds, and to walls and fixed bodies it is at least its own bound.
 //   3. The discs of all accepted pairs exchange their numbers, and so their radii, at once.
 // No overlap can follow, because no radius exceeds its disc's bound. Detailed balance holds: the
-// bounds are the same before and after, whichever pairs are accepted, because a pair of numbers has
-// the same two discs. So the same proposals accept the same pairs again, which restores the first
-// state. Each set of proposals is its own inverse, and its probability does not depend on the
-// state. So any two states turn into each other equally often, as in the ensemble of hard discs,
-// where all states have the same weight.
+// bounds are the same before and after, whichever pairs are accepted, because the two discs of a
+// pair only exchange their numbers. So if the same pairs are proposed again, the same ones are
+// accepted, which restores the first state. Each set of proposals is its own inverse, and its
+// probability does not depend on the state. So the transitions between any two states are equally
+// probable in both directions, as all states of the ensemble of hard discs have the same weight.
 //
 // Whether a disc fits depends on its neighbours alone. So each rank tests its own discs, and ranks
-// exchange the discs that fit. The result depends neither on ranks nor on threads. Cost: a halo as
-// deep as the largest diameter at each sync, and an exchange between all ranks each round.
+// exchange lists of discs that fit. The result depends neither on ranks nor on threads. Cost: a
+// halo as deep as the largest diameter at each sync, and an exchange between all ranks per round.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -47,8 +47,8 @@ namespace {
 using SizeNumber = std::uint32_t;
 
 /// The proposals of a round. In a round the numbers of all partners differ by the same distance, a
-/// random power of two, and each power is equally probable. So pairs of near radii, which exchange
-/// easily, and pairs of far radii, which change more, are proposed equally often.
+/// random power of two, and each power is equally probable. So pairs of similar radii, which
+/// usually fit, are proposed as often as pairs of very different radii, which change a state more.
 struct Proposals {
     std::uint64_t seed, sync, round;
     SizeNumber n_sizes = 0, distance = 1, shift = 0;
@@ -64,7 +64,7 @@ struct Proposals {
         shift = static_cast<SizeNumber>(words[1] % (2 * std::uint64_t{distance}));
     }
 
-    /// The number that is paired with this one, if any.
+    /// The number with which `number` is paired in this round, if any.
     std::optional<SizeNumber> partner_of(SizeNumber number) const {
         const bool is_low = ((std::uint64_t{number} + shift) / distance) % 2 == 0;
         if (is_low ? number >= n_sizes - std::min(distance, n_sizes) : number < distance)
@@ -76,7 +76,7 @@ struct Proposals {
     }
 };
 
-/// The other discs within the search range of each disc of this rank.
+/// For each disc of this rank, the other discs within the distance SwapMoves::reach.
 class Neighbours {
 public:
     struct One {
@@ -112,7 +112,7 @@ private:
 /// Required distances are larger by this factor, so that discs that would touch never fit.
 constexpr double with_rounding = 1 + 0x1p-40;
 
-/// Walls and fixed bodies at rest, with the test that a disc fits beside them.
+/// Walls and fixed bodies at rest, with a test of whether a disc has room beside them.
 class BodiesAtRest {
 public:
     explicit BodiesAtRest(const SceneParameters& scene)
@@ -214,8 +214,8 @@ private:
         });
     }
 
-    /// The lower number of the pair, for each disc of this rank that fits. A number occurs twice if
-    /// both discs of its pair fit.
+    /// The lower number of its pair, for each disc of this rank that fits. In all ranks' lists
+    /// together, a number occurs twice if both discs of the pair fit.
     std::vector<SizeNumber> fitting(const Proposals& proposals, const SyncDiscs& at,
                                     const Neighbours& neighbours) const {
         std::vector<SizeNumber> all;
@@ -257,9 +257,9 @@ private:
     std::uint64_t n_discs_;
     double steps_between_;
     BodiesAtRest at_rest_;
-    std::optional<SpeciesTable> table_; ///< a copy of the run's table, which shares its memory
+    std::optional<SpeciesTable> table_; ///< shares its memory with the run's table
     std::vector<double> radii_;         ///< radii in ascending order, by number
-    std::vector<DiscId> holders_;       ///< the disc that has each radius, by number of the radius
+    std::vector<DiscId> holders_;       ///< id of the disc with the radius, by number of the radius
     std::vector<SizeNumber> numbers_;   ///< number of the radius, by id of the disc
     std::int64_t n_accepted_ = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sync times for effects that by default act at the end of each step.
+// Times of syncs for effects that by default act about once a step.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace carrom {
 
-/// Makes each step end with a sync, unless the scene sets the time between syncs.
+/// Makes the time between syncs at most a step, unless the scene sets it.
 inline void sync_in_each_step(const SceneDraft& draft) {
     if (!draft.settings.has("time.sync_every"))
         draft.scene.sync_every = std::min(draft.scene.sync_every, draft.scene.micro_steps);

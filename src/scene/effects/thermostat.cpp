@@ -2,7 +2,8 @@
 // Thermostats: they act on velocities and spins at syncs, every `time.sync_every` micro-steps.
 //
 // After a time t between syncs, with independent normal numbers n of mean 0 and variance 1:
-//   kicks     v += xi sqrt(t) n, less the mean weighted by mass, so that total momentum is kept.
+//   kicks     v += xi sqrt(t) n, minus the mass-weighted mean of all kicks, so that the total
+//             momentum is conserved.
 //             White noise of strength xi^2 in the limit of short t (van Noije and Ernst, Granular
 //             Matter 1, 57 (1998)). xi is the same for all masses. Spins do not change.
 //   andersen  with the probability 1 - exp(-rate t) a disc gets a velocity and spin from Maxwell's
@@ -10,8 +11,8 @@
 //   langevin  v = c v + sqrt((1 - c^2) kT / m) n with c = exp(-rate t): the exact solution of
 //             dv = -rate v dt + sqrt(2 rate kT / m) dW, the process of Ornstein and Uhlenbeck.
 //   rescale   velocities relative to the centre of mass, and spins, are multiplied by the factor
-//             that makes their energy kT for each disc, and kT / 2 more where discs have spins.
-//             Discs that all fly alike, as a single disc does, stay as they are.
+//             that makes their mean energy per disc kT, or 3/2 kT if discs have spins. Nothing
+//             changes if all discs have the same velocity, for example if there is only one disc.
 // For spins the moment of inertia takes the place of the mass. Between sheared sides all velocities
 // are relative to the flow.
 //
@@ -52,7 +53,7 @@ protected:
     DiscRandom random_of(const SyncDiscs& at, DiscId id) const {
         return {setting_.seed, Purpose::sync, id, static_cast<std::uint64_t>(at.n_syncs)};
     }
-    /// Root mean squares in equilibrium: of a velocity component, and of the spin.
+    /// Root mean square of a velocity component in equilibrium; `thermal_spin` is that of the spin.
     double thermal_speed(const SizeAndMass& body) const {
         return std::sqrt(setting_.temperature / body.mass);
     }
@@ -149,7 +150,7 @@ public:
     using ThermostatEffect::ThermostatEffect;
 
     void act(const SyncDiscs& at) override {
-        double largest = 0; // the largest velocity component, or speed of a rough disc's surface
+        double largest = 0; // of velocity components and speeds of rough surfaces
         for (std::size_t i = 0; i < at.discs.size(); ++i)
             largest = std::max({largest, std::fabs(at.discs[i].vx), std::fabs(at.discs[i].vy),
                                 std::fabs(speed_of_surface(at, i))});
@@ -176,8 +177,8 @@ public:
             parts[0].add(0.5 * mass * (wx * wx + wy * wy + inertia_ * (turning * turning)));
         });
         const double now = energy[0].value(), blur = 0x1p-48 * largest;
-        // If all discs fly alike, velocities differ from their mean only by rounding errors, which
-        // must not be scaled up to heat.
+        // If all discs have the same velocity, they differ from the mean only by rounding errors,
+        // which must not be amplified.
         if (!(now > sums[2].value() * blur * blur)) return;
         const double wanted = n * setting_.temperature * (at.spins.empty() ? 1 : 1.5);
         const double factor = std::sqrt(wanted / now);
@@ -277,7 +278,7 @@ std::vector<Rule> rules_of_thermostat() {
              }}};
 }
 
-/// Limits the time between syncs: discs would keep hardly any of their velocity after a longer one.
+/// Limits the time between syncs, because discs would lose almost all their velocity at each sync.
 void check_times_of_thermostat(const SceneDraft& draft) {
     constexpr double longest = 4;
     const SceneParameters& scene = draft.scene;
@@ -291,7 +292,7 @@ void check_times_of_thermostat(const SceneDraft& draft) {
                              rate, longest, longest / interval));
 }
 
-/// Energy jumps at syncs, except under a bath (andersen, langevin) if nothing else changes energy.
+/// Energy jumps at syncs, unless only a bath (andersen, langevin) changes the energy.
 bool makes_energy_jump(const Effects& effects) {
     const CheckAllowance others = allowance_of(effects);
     return effects.thermostat.is_on() &&
@@ -327,8 +328,8 @@ std::string summary_of_thermostat(const Effects& effects) {
     return {};
 }
 
-/// A typical speed, per step: the thermal speed, or for kicks about the speed that a disc at rest
-/// gains on a path of one radius.
+/// A typical speed, as a length per step: the thermal speed, or for kicks about the speed that a
+/// disc at rest gains while it moves by one radius.
 double usual_speed_of_thermostat(const SceneParameters& scene) {
     const Thermostat& t = scene.effects.thermostat;
     return std::max(std::sqrt(t.temperature), std::cbrt(t.strength * scene.radius));
