@@ -48,7 +48,7 @@
 
 namespace carrom {
 
-/// Numbers of this rank's discs, in the order of the discs; empty in scenes without such numbers.
+/// Values of this rank's discs, in the order of the discs; empty in scenes without such values.
 struct CheckedColumns {
     std::span<const double> spins{};         ///< spins per micro-step
     std::span<const double> swapped_radii{}; ///< present radii, if discs exchange radii

@@ -9,7 +9,7 @@
 
 namespace carrom {
 
-/// The reading of the clock s at the time `time` after the clock was set to 0.
+/// The transformed time s = (1 - exp(-rate time)) / rate, in which discs fly at constant speed.
 double drag_clock(double rate, double time);
 
 /// The factor exp(-rate time) by which drag multiplies velocities.

@@ -17,7 +17,7 @@
 
 namespace carrom {
 
-/// The factors of a law for one pair of rows.
+/// The coefficients of the contact law for discs of two rows of `discs.species`.
 struct PairFactors {
     double normal = 1;     ///< normal impulse relative to an elastic contact, (1 + e) / 2
     double tangential = 0; ///< tangential impulse over sliding velocity if surfaces stick, for

@@ -46,7 +46,7 @@ struct EventHistory {
 static_assert(sizeof(EventHistory) == 16);
 
 /// A rectangle that contains the positions of all possible partners of a flight at the window's
-/// start. Its coordinates are in units of the lanes.
+/// start. Its coordinates are in units of Scratch::cell_width.
 struct FlightBox {
     float left = 0, right = 0, bottom = 0, top = 0;
 };

@@ -207,7 +207,7 @@ private:
     int common_depth_ = 0;  ///< least depth of the halos of all ranks, in reaches
     int halo_depth_ = 0;    ///< depth of this rank's halo, in reaches
     CellBlock own_cells_{0, 1, 0, 1};
-    BlockCuts cuts_; ///< cuts of the own cells into blocks
+    BlockCuts cuts_; ///< where this rank's own cells are cut into blocks
     std::vector<Block> blocks_;
     std::vector<std::vector<BlockWork>> rounds_;
     HaloCounts halo_counts_;

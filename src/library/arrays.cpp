@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fills arrays with numbers of discs, indexed by id, for programs that work on arrays. Threads fill
-// them without sorting, because a disc's index in an array is its id.
+// Fills arrays with values of all discs (positions, velocities, spins and so on) for programs that
+// work on arrays. Threads fill them without sorting, because a disc's index in an array is its id.
 #include <bit>
 #include <cstdint>
 #include <limits>

@@ -183,8 +183,9 @@ private:
     IdOf id_of_;
     std::uint64_t n_;
     Pieces pieces_;
-    std::vector<std::uint32_t> order_;          ///< indices of this rank's records, sorted by piece
-    std::vector<std::uint32_t> first_in_order_; ///< begin of each piece in `order_`; then the end
+    std::vector<std::uint32_t> order_; ///< indices of this rank's records, sorted by piece
+    std::vector<std::uint32_t>
+        first_in_order_; ///< first place of each piece in `order_`; then its size
     std::uint64_t round_ = 0, begin_ = 0;
     std::vector<T> piece_;
     std::vector<std::uint8_t> is_placed_;

@@ -123,7 +123,7 @@ std::string HeapWarning::text_on_flow(double per_step) const {
 }
 
 /// The root mean square of the discs' speeds relative to their mean velocity, both means weighted
-/// by mass; in lengths per step.
+/// by mass; in the scene's unit of length per step.
 double HeapWarning::speed_of_passing() const {
     double mass = scene_.effects.species.empty() ? static_cast<double>(scene_.n_discs) : 0;
     for (const Species& one : scene_.effects.species)

@@ -18,10 +18,11 @@ struct Quantity {
     std::string_view name;
     std::string_view help;            ///< the quantity's text on the page of keys
     bool needs_lasting_sides = false; ///< whether its table needs sides of constant lengths
-    std::vector<Key> keys = {};      ///< settings of the quantity; several quantities can share one
-    bool has_history = false;        ///< whether its tables grow with each sample
-    bool follows_collisions = false; ///< whether it needs each collision, which GPUs do not record
-    std::vector<Rule> rules = {};    ///< features with which it cannot be combined
+    std::vector<Key> keys = {}; ///< settings of the quantity; several quantities can share one
+    bool has_history = false;   ///< whether its tables grow with each sample
+    bool follows_collisions =
+        false;                    ///< whether it needs a record of each collision; GPUs have none
+    std::vector<Rule> rules = {}; ///< features with which it cannot be combined
     void (*check)(const SceneDraft&) = {}; ///< called if box and discs are valid; runs once even
                                            ///< if several measured quantities have this check
     void (*check_times)(const SceneDraft&) = {}; ///< called when the times of the scene are known

@@ -8,8 +8,8 @@
 
 namespace carrom {
 
-/// TOML text of the same scene: required keys, and keys whose values differ from the default. Lines
-/// of discs that follow legacy text are not included.
+/// TOML text that describes the scene: required keys, and keys whose values differ from the
+/// default. Lines of discs that follow legacy text are not included.
 std::string scene_text(const SceneParameters& scene);
 
 } // namespace carrom

@@ -18,7 +18,7 @@ MotionSample motion_sample(const DiscSystem& system);
 /// Adds the integrals of stress and energy over an interval; `mine` are this rank's sums over it.
 /// **Collective.**
 void integrate(const DiscSystem& system, const StressSums& mine, MotionSample& sample);
-/// Adds to `sample` only the flights since the last sync, which DiscSystem::stress_sums lacks.
+/// Adds to `sample` only the flights that DiscSystem::stress_sums lacks (Engine::flight_integral).
 void integrate_flights(const DiscSystem& system, MotionSample& sample);
 
 /// Adds to counts[k] this rank's pairs of discs whose present distance is k to k + 1 times

@@ -34,7 +34,8 @@ double share_of_ideal_pairs(double a, double b, double distance);
 /// The same share in a box that is periodic along x, with nearest images, and has walls a length b
 /// apart; for distances up to half a period and up to b.
 double share_of_ideal_pairs_around_x(double period, double b, double distance);
-/// The same share in a box without walls, with nearest images, up to half the shorter period.
+/// This share in a box that is periodic along both axes, with distances to nearest images; for
+/// distances up to half the shorter period.
 double share_of_ideal_pairs_around(double area, double distance);
 /// The same share in a circle, for distances up to its diameter (Hammersley, Ann. Math. Stat. 21,
 /// 447 (1950)).

@@ -20,7 +20,7 @@
 namespace carrom {
 
 struct FileOfDiscs {
-    std::uint64_t n_discs = 0;           ///< number of discs without the departed ones
+    std::uint64_t n_discs = 0;           ///< number of discs that have not departed
     std::vector<std::uint64_t> departed; ///< old ids of the departed discs, ascending
     /// Number of discs of each species that have not departed, if the file has species
     std::vector<std::uint64_t> n_by_species;

@@ -32,7 +32,7 @@ const Need rows_of_lossy_discs{
         return are_pairs_lossy(s.effects) && !s.effects.contact.rows.empty();
     }};
 constexpr Range shares{0, 1};
-constexpr std::size_t most_rows = 100; ///< of species; the table of pairs has most_rows^2 entries
+constexpr std::size_t most_rows = 100; ///< most rows of species; tables have most_rows^2 pairs
 
 /// The indices of the numbers in a row of `effects.contact.pairs`.
 namespace pair_row {
