@@ -194,6 +194,9 @@ inline Texts scene_with_companions(Draw& draw, const Key& key) {
 
 /// A short scene with a key that only few scenes may have; empty for other keys.
 inline Texts scene_with(Draw& draw, const Key& key) {
+    if (key.name == "time.stop.departed")
+        return {"discs.count=20", "discs.radius=1", "box.left.kind=open",
+                key.name + '=' + draw.value(key)};
     if (key.name.starts_with("time.") && !key.has_rows()) // a scene without effects
         return {"discs.count=20", "discs.radius=1",
                 draw.below(2) == 0 ? "time.arithmetic=naive" : "time.method=time-stepped",
