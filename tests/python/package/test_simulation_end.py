@@ -26,6 +26,7 @@ USES: list[Any] = [
     lambda s, _: s.tables,
     lambda s, _: s.report,
     lambda s, _: s.step,
+    lambda s, _: s.box,
     lambda s, _: s.local,
     lambda s, _: s.frame,
     lambda s, _: s.copy(),
@@ -51,7 +52,7 @@ def test_a_closed_simulation_says_so(tmp_path: Path) -> None:
     assert averages.steps == 3
     assert not tables
     assert sim.masses.sum() == sim.n_discs == 60
-    assert sim.box.tolist() == [20, 20]
+    assert sim.corner.tolist() == [0, 0]
 
 
 def test_with_closes_at_the_end_and_after_an_error() -> None:
