@@ -173,7 +173,8 @@ def test_one_wrong_scene_is_an_error_of_all_ranks(tmp_path: Path) -> None:
         words = [(line[rank], line[1 - rank]) for line in lines[7 * rank : 7 * rank + 7]]
         assert words[0][0] == "ValueError threads must be at least 1, not 0"
         for here, there in (*words[:3], words[5]):  # the others are read by the library
-            assert here in there and there.endswith(f"(on rank {rank})")
+            assert here in there
+            assert there.endswith(f"(on rank {rank})")
         here, there = words[4]
         assert here.endswith(f"rank {1 - rank} begins with a scene, and this one with a checkpoint")
         assert there.endswith(f"rank {rank} begins with a checkpoint, and this one with a scene")
